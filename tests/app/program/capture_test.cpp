@@ -197,7 +197,7 @@ TEST(Captures, TrackersThatFail) {
     int exit_code;
     const char* what;
   } cases[] = {
-      {"no_such_program {in} {out}", 2, "there is no program no_such_program"},
+      {"no_such_program {in} {out}", 2, "cannot find an executable program no_such_program"},
       {"true '{in}", 2, "not closed"},
       {"true {out}", 2, "has {out} and no {in}"},
       {tracker(dir, "echo no camera >&2; exit 7\n"), 3, "exit code 7; it said: no camera"},

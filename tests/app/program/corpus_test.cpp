@@ -276,7 +276,7 @@ TEST(Corpus, WhatCannotBe) {
   };
   const auto nothing = run({});
   EXPECT_EQ(nothing.exit_code, 3);
-  EXPECT_THAT(nothing.err, HasSubstr("there is no video and no table of a tracker here"));
+  EXPECT_THAT(nothing.err, HasSubstr("there is no video and no tracker table here"));
   fs::copy(test::data_dir() / "containers/mpeg4_video.mp4", dir / "videos/a.mp4");
   const auto no_text = run({});
   EXPECT_EQ(no_text.exit_code, 3);

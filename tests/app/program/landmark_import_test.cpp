@@ -115,7 +115,7 @@ TEST(ImportLandmarks, FacesAreTakenOneByOne) {
     begin = end + 1;
   }
   EXPECT_THAT(import(out, {"--neutral", "0"}).talk,
-              AllOf(HasSubstr("6 frames"), HasSubstr("rows of other faces, left out: 6")));
+              AllOf(HasSubstr("6 frames"), HasSubstr("rows of other faces, skipped: 6")));
   EXPECT_EQ(import(out, {"--neutral", "0", "--face", "2"}).clip.frames.size(), 6U);
 }
 

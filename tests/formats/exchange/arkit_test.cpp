@@ -40,8 +40,8 @@ TEST(ExchangeArkit, ATakeOfLiveLinkFace) {
   EXPECT_THAT(numbers(take->clip), ElementsAre(0, 1, 2, 4));
   EXPECT_EQ(take->clip.frames[3].value[3], 408);
   EXPECT_EQ(take->clip.name, "");
-  EXPECT_THAT(take->warnings, ElementsAre(HasSubstr("left out: Weather"),
-                                          HasSubstr("without a face, left out: 1")));
+  EXPECT_THAT(take->warnings,
+              ElementsAre(HasSubstr("ignored: Weather"), HasSubstr("without a face, skipped: 1")));
 }
 
 TEST(ExchangeArkit, TheWeightsOfATakeAreThoseOfItsFaces) {

@@ -130,7 +130,7 @@ TEST(CaptureTable, JsonOfShapes) {
   ASSERT_TRUE(table) << table.error().describe();
   EXPECT_EQ(table->kind, CaptureKind::arkit);
   EXPECT_EQ(table->table, "time_s,jawOpen,mouthClose\n0,0.25,0\n0.04,0.5,1\n");
-  EXPECT_THAT(table->warnings, ElementsAre(HasSubstr("without a face, left out: 1")));
+  EXPECT_THAT(table->warnings, ElementsAre(HasSubstr("without a face, skipped: 1")));
   EXPECT_TRUE(read_arkit_table(table->table));
 }
 
@@ -181,14 +181,14 @@ TEST(CaptureTable, SaysWhatAFileIs) {
       {"\x1f\x8b\x08", "gunzip"},
       {"\x93NUMPY", "numpy"},
       {"\x80\x04\x95", "pickle"},
-      {"HIERARCHY\nROOT Hips\n", "skeleton (BVH)"},
+      {"HIERARCHY\nROOT Hips\n", "skeletal motion (BVH)"},
       {"ANIMEDAM", "trained model"},
       {"version: 1\nn_points: 68\n", "one picture"},
-      {"2.1 talk 25 2\n1 0 0\n", "FAPs already"},
-      {"\0\0\1\xBA"s, "stream of FAPs"},
-      {"RIFF\x01\x02", "no text"},
+      {"2.1 talk 25 2\n1 0 0\n", "already FAPs"},
+      {"\0\0\1\xBA"s, "FBA stream"},
+      {"RIFF\x01\x02", "not text"},
       {"<?xml version=\"1.0\"?>", "XML"},
-      {"0.1,0.2,0.3\n", "no names of columns"},
+      {"0.1,0.2,0.3\n", "no column names"},
       {"a,b\n1,2\n", "no column is an ARKit blend shape"},
   };
   for (const auto& one : cases) {

@@ -29,7 +29,7 @@ TEST(ExchangeLandmarks, OpenFace) {
   EXPECT_TRUE(table->track.depth);
   EXPECT_EQ(table->track.frames.size(), 7U);
   EXPECT_EQ(table->track.frames[5].number, 6) << "the tracker was not sure of a row";
-  EXPECT_THAT(table->warnings, ElementsAre(HasSubstr("not sure of the face, left out: 1")));
+  EXPECT_THAT(table->warnings, ElementsAre(HasSubstr("low confidence, skipped: 1")));
 
   LandmarkTableOptions flat;
   flat.flat = true;
@@ -77,7 +77,7 @@ TEST(ExchangeLandmarks, SharesOfAPicture) {
   const std::string text = mediapipe(4, 478, 640, 480);
   const auto guessed = read_landmark_table(text);
   ASSERT_TRUE(guessed) << guessed.error().describe();
-  EXPECT_THAT(guessed->warnings, ElementsAre(HasSubstr("taken to be 4:3")));
+  EXPECT_THAT(guessed->warnings, ElementsAre(HasSubstr("assumed to be 4:3")));
   LandmarkTableOptions told;
   told.size = parse_picture_size("640x480");
   const auto table = read_landmark_table(text, told);
@@ -120,14 +120,14 @@ TEST(ExchangeLandmarks, HostileTables) {
     const char* what;
   } cases[] = {
       {"", Code::truncated, "empty"},
-      {head, Code::truncated, "no row behind the header"},
+      {head, Code::truncated, "no row after the header"},
       {"x_999999,y_999999\n1,2\n", Code::not_found, "no column"},
-      {"x0,y0,x1\n1,2,3\n", Code::not_found, "2 numbered points are no layout"},
+      {"x0,y0,x1\n1,2,3\n", Code::not_found, "2 numbered points are not a known layout"},
       {"8.1_x,8.1_y,8.2_x\n1,2,3\n", Code::not_found, "8.2 has no column for its y"},
       {"8.1_x,8.1_y,FP8.1_X\n1,2,3\n", Code::syntax, "twice"},
-      {"8.1_x,8.1_y\n1,two\n", Code::syntax, "8.1_y is 'two', which is no number"},
+      {"8.1_x,8.1_y\n1,two\n", Code::syntax, "8.1_y is 'two', which is not a number"},
       {"8.1_x,8.1_y\n1\n", Code::syntax, "1 fields where the header has 2"},
-      {"time,8.1_x,8.1_y\nnow,1,2\n", Code::syntax, "time is 'now', which is no time"},
+      {"time,8.1_x,8.1_y\nnow,1,2\n", Code::syntax, "time is 'now', which is not a time"},
       {"face_id,8.1_x,8.1_y\nnan,1,2\n", Code::truncated, "no row"},
       {"time,8.1_x,8.1_y\n1e308,1,2\n-1e308,1,2\n", Code::out_of_range, "goes back"},
   };

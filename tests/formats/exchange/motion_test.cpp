@@ -87,7 +87,7 @@ TEST(ExchangeMotion, TablesAreToldByTheirHeader) {
   const auto shapes = read_any_table("time_s,jawOpen,x,jawLeft\n0,0,0,0\n0.04,1,0,0\n");
   ASSERT_TRUE(shapes) << shapes.error().describe();
   EXPECT_EQ(shapes->clip.frames[1].value[3], 1360);
-  EXPECT_THAT(shapes->warnings, ElementsAre(HasSubstr("left out: x")));
+  EXPECT_THAT(shapes->warnings, ElementsAre(HasSubstr("ignored: x")));
   const auto points = read_any_table(test::openface(4));
   ASSERT_TRUE(points) << points.error().describe();
   EXPECT_EQ(points->clip.frames.size(), 4U);
@@ -115,8 +115,8 @@ TEST(ExchangeMotion, WhatHoldsNoMotion) {
     const char* what;
   } cases[] = {
       {"", Code::truncated, "empty"},
-      {"ANIMEDAM", Code::syntax, "holds no face"},
-      {"start_s\tend_s\tphone\n0\t1\tAA\n", Code::syntax, "holds no face"},
+      {"ANIMEDAM", Code::syntax, "contains no face"},
+      {"start_s\tend_s\tphone\n0\t1\tAA\n", Code::syntax, "contains no face"},
       {"#EXTM3U\n", Code::unsupported, "container"},
       {"time_s\n", Code::not_found, "no control"},
   };

@@ -153,7 +153,7 @@ TEST(PictureShape, AWrongSizeIsSeenInTheFace) {
   EXPECT_THAT(read_landmark_table(text, sized(1280, 800))->warnings, IsEmpty()) << "16:10 may be";
   for (const auto& [width, height] : {std::pair{720.0, 1280.0}, {640.0, 480.0}, {512.0, 512.0}}) {
     EXPECT_THAT(read_landmark_table(text, sized(width, height))->warnings,
-                ElementsAre(HasSubstr("is --size that of the video as it is shown?")))
+                ElementsAre(HasSubstr("is --size the displayed size of the video?")))
         << width;
   }
 }

@@ -157,7 +157,7 @@ TEST_F(MuxFailure, CodecsThatAFormatDoesNotTake) {
     EXPECT_THAT(written.error().message, testing::HasSubstr(words)) << name;
   };
   const MuxOptions opus{.audio = {.codec = AudioCodec::opus}};
-  refused("a.ts", input_, opus, "a .ts file takes no opus; code the sound as aac");
+  refused("a.ts", input_, opus, "a .ts file does not support opus; code the sound as aac");
   refused("a.m4a", {.audio = &sound_}, opus, "takes no opus");
   refused("a.opus", {.audio = &sound_}, {}, "takes no aac; code the sound as opus");
   refused("a.webm", {.audio = &sound_}, {}, "takes no aac");

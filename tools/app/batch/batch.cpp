@@ -144,8 +144,9 @@ Result<Ending> run_batch(const Settings& given, const Watch& watch) {
   Result<tools::FileLock> lock = take_lock(path);
   if (!lock) return lock.error();
   if (!settings.resume && fs::exists(path, failed)) {
-    return make_error(Code::invalid_argument,
-                      "there is a batch already; go on with --resume, or give another folder")
+    return make_error(
+               Code::invalid_argument,
+               "the folder already has a batch; continue it with --resume, or give another folder")
         .in_file(path);
   }
   settings.shared.stage =

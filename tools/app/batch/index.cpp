@@ -105,7 +105,7 @@ Result<Index> Index::open(const std::string& path, bool repair) {
       continue;
     }
     if (offset == 0 && line + "\n" != kHeader) {
-      return error_at_line(Code::syntax, "this is no index of a batch of this version", 1)
+      return error_at_line(Code::syntax, "this is not a batch index of this version", 1)
           .in_file(path);
     }
     const std::int64_t length = std::int64_t(line.size()) + 1;

@@ -100,7 +100,8 @@ Result<Manifest> Manifest::open(const std::string& path, Form form,
   }
   std::error_code unknown;
   if (std::filesystem::is_directory(path, unknown)) {
-    return make_error(Code::io, "this is a folder; give a file with a row a clip").in_file(path);
+    return make_error(Code::io, "this is a folder; give a file with one row per clip")
+        .in_file(path);
   }
   manifest.file_.reset(path == "-" ? std::tmpfile() : std::fopen(path.c_str(), "rbe"));
   if (!manifest.file_) {
@@ -112,7 +113,7 @@ Result<Manifest> Manifest::open(const std::string& path, Form form,
     char block[65536];
     while (const std::size_t got = std::fread(block, 1, sizeof block, stdin)) {
       if (std::fwrite(block, 1, got, manifest.file_.get()) != got) {
-        return make_error(Code::io, "there is no room for a copy of standard input in TMPDIR");
+        return make_error(Code::io, "no space for a copy of standard input in TMPDIR");
       }
     }
   }

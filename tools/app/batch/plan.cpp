@@ -69,7 +69,7 @@ Result<Wanted> read_wanted(const std::string& text, bool speech) {
   if (wanted.command.empty()) wanted.command = usual_command(last, speech);
   if (wanted.command != "speak" && wanted.command != "align" && !shows_face(wanted.command)) {
     return bad(
-        "nobody makes the output \"" + text +
+        "no command makes the output \"" + text +
         "\"; put speak:, align:, encode:, decode:, render:, export:, view: or plot: before it");
   }
   return wanted;
@@ -80,7 +80,7 @@ Result<std::vector<Wanted>> read_outputs(const Row& row, bool speech) {
   std::replace(text.begin(), text.end(), ',', ' ');
   Result<Words> words = tools::split_arguments(text);
   if (!words) return words.error();
-  if (words->empty()) return bad("the row wants no outputs");
+  if (words->empty()) return bad("the row has no outputs");
   std::vector<Wanted> list;
   for (const std::string& word : *words) {
     Result<Wanted> one = read_wanted(word, speech);
@@ -164,7 +164,7 @@ Result<Plan> plan_row(const Row& row, const std::string& stage) {
   const auto has = [&](const char* column) { return !row.at(column).empty(); };
   const bool speech = has("text") || has("text_file") || has("script") || has("audio");
   if (speech == has("input")) {
-    return bad(speech ? "the row has an input and something to say; give one of them"
+    return bad(speech ? "the row has both an input and speech; give only one"
                       : "the row has nothing to say: text, text_file, script, audio or input");
   }
   Result<std::vector<Wanted>> wanted = read_outputs(row, speech);
@@ -195,7 +195,9 @@ Result<Plan> plan_row(const Row& row, const std::string& stage) {
   };
   for (const Wanted& one : *wanted) {
     if (!speaks(one)) continue;
-    if (!speech) return bad("output \"speak:" + one.ending + "\" wants something to say");
+    if (!speech)
+      return bad("output \"speak:" + one.ending +
+                 "\" needs speech: text, text_file, script or audio");
     if (auto added = speak(place(one.ending)); !added) return added.error();
     if (face.empty() && is_face(tools::extension_of("x" + one.ending))) face = place(one.ending);
   }

@@ -204,7 +204,7 @@ class Judge {
       const bool known = std::find(right.begin(), right.end(), kind) != right.end();
       if (!one_.info.damaged || (!known && !right.empty())) {
         return say(one_.info.damaged ? Verdict::wrong : Verdict::error,
-                   "the decoder says: " + line);
+                   "message of the decoder: " + line);
       }
     }
     if (one_.info.damaged && !any) say(Verdict::wrong, "the damage was not reported");

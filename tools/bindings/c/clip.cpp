@@ -53,7 +53,7 @@ animeme_status animeme_clip_new(uint32_t rate_num, uint32_t rate_den, animeme_cl
   if (clip == nullptr) return c::invalid(error, c::kClipIsNull);
   *clip = nullptr;
   const fap::Rate rate = fap::make_rate(rate_num, rate_den);
-  if (!rate.valid()) return c::invalid(error, "both parts of the rate have to be above 0");
+  if (!rate.valid()) return c::invalid(error, "both parts of the rate must be above 0");
   return c::guarded(error, [&] { return c::give_clip(clip, {rate, {}, {}}); });
 }
 

@@ -11,7 +11,7 @@ animeme_status cannot_speak(animeme_error* error) {
 
 template <class Handle>
 animeme_status cannot_make(Handle** out, animeme_error* error) {
-  if (out == nullptr) return invalid(error, "there is no place for the handle");
+  if (out == nullptr) return invalid(error, "the pointer for the handle is NULL");
   *out = nullptr;
   return cannot_speak(error);
 }

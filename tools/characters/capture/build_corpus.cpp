@@ -164,7 +164,7 @@ class Builder {
           if (points && points->track.points != most) {
             return make_error(Code::invalid_argument,
                               "it has other points than most recordings; --face-file or "
-                              "--neutral-from measures it all the same");
+                              "use --neutral-from to include it");
           }
           captures.push_back(sentence.capture);
           return {};

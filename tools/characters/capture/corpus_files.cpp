@@ -104,7 +104,7 @@ Result<void> add_scripts(const std::string& place, std::map<std::string, Take>& 
     // A table of a tracker in the same folder is no script.
     if (take != takes.end() && take->second.table == file.string()) continue;
     if (take == takes.end()) {
-      left_out.push_back({file.stem().string(), "files", "there is a transcript and no capture"});
+      left_out.push_back({file.stem().string(), "files", "there is a transcript but no capture"});
     } else if (text) {
       if (auto ok = read_text(file.string(), take->second); !ok) return ok;
     } else if (take->second.script.empty() || ending == ".textgrid") {
@@ -159,7 +159,7 @@ Result<void> add_list(const std::string& path, std::map<std::string, Take>& take
     const std::string id = ending ? name.stem().string() : name.filename().string();
     const auto take = takes.find(id);
     if (take == takes.end()) {
-      left_out.push_back({id, "files", "there is a transcript and no capture"});
+      left_out.push_back({id, "files", "there is a transcript but no capture"});
       continue;
     }
     if (take->second.text) {
@@ -201,7 +201,7 @@ Result<Takes> find_takes(const CorpusPlaces& places) {
   std::erase_if(
       takes, [](const auto& one) { return one.second.table.empty() && one.second.video.empty(); });
   if (takes.empty()) {
-    return make_error(Code::not_found, "there is no video and no table of a tracker here")
+    return make_error(Code::not_found, "there is no video and no tracker table here")
         .in_file(places.captures);
   }
   std::error_code ignored;

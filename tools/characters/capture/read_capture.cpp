@@ -185,7 +185,7 @@ Result<CapturedFace> face_of_capture(Capture capture, const CaptureSettings& set
     face.clip = std::move(capture.motion->clip);
     if (settings.landmarks.repair) face.made = fill_gaps(face.clip);
     if (!face.made.empty()) {
-      face.warnings.push_back("frames without a face, put between their neighbours: " +
+      face.warnings.push_back("frames without a face, interpolated: " +
                               std::to_string(face.made.size()));
     }
     face.made.insert(face.made.end(), capture.made.begin(), capture.made.end());

@@ -43,13 +43,13 @@ Result<exchange::PointTableOptions> table_options(const Project& project) {
   if (!project.rate.empty()) {
     const Result<fap::Rate> rate = fap::parse_rate(project.rate);
     if (!rate || !rate->valid()) {
-      return refused("rate: '" + project.rate + "' is no frame rate; write 30 or 29.97");
+      return refused("rate: '" + project.rate + "' is not a frame rate; write 30 or 29.97");
     }
     out.rate = *rate;
   }
   if (!project.size.empty()) {
     out.size = exchange::parse_picture_size(project.size);
-    if (!out.size) return refused("size: '" + project.size + "' is no size; write 1280x720");
+    if (!out.size) return refused("size: '" + project.size + "' is not a size; write 1280x720");
   }
   return out;
 }
@@ -170,7 +170,7 @@ Result<NeutralFace> neutral_face(const Project& project, const std::vector<dam::
         out.shape[used[i] * first.dimensions + k] = (*rest)[i * first.dimensions + k];
       }
     }
-    log.info("neutral shape: the stillest 0.2 seconds of the recordings (--neutral says it)");
+    log.info("neutral shape: the stillest 0.2 seconds of the recordings (change with --neutral)");
     return out;
   }
   if (const auto seconds = parse_seconds(project.neutral)) {
@@ -242,7 +242,7 @@ Result<dam::FaceOptions> face_options(const Project& project, const NeutralFace&
   if (unit == "m") out.centimetres = 100;
   if (unit == "in") out.centimetres = 2.54;
   if (!project.unit.empty() && out.centimetres == 0) {
-    return refused("unit: '" + project.unit + "' is none of mm, cm, m and in");
+    return refused("unit: '" + project.unit + "' is not one of mm, cm, m and in");
   }
   return out;
 }
@@ -261,7 +261,7 @@ Result<std::vector<dam::FacePoint>> mapped_points(const Project& project, const 
     const Names ids = {id};
     if (dam::face_points(ids).empty()) {
       return refused("face: '" + id +
-                     "' is no feature point, such as 8.3 (left corner of the lips)");
+                     "' is not a feature point, such as 8.3 (left corner of the lips)");
     }
     const auto at = find(names, name);
     if (!at) return missing("face: there is no point '" + name + "' in the recordings");
@@ -404,7 +404,7 @@ Indices used_points(const Roles& roles, const std::vector<dam::PointTrack>& trac
 Result<Capture> load_capture(const Project& project, const tools::Log& log) {
   const auto options = table_options(project);
   if (!options) return options.error();
-  if (project.inputs.empty()) return refused("there is no recording to be mapped");
+  if (project.inputs.empty()) return refused("there is no recording to map");
   std::vector<PointRecording> takes;
   for (const std::string& path : project.inputs) {
     Result<PointRecording> take = read_recording(path, *options);

@@ -54,7 +54,7 @@ Result<Keys> found_keys(const Project& project, const Capture& capture, const to
     if (size(key) > kNearNeutral * largest) add(out, capture, key.track, key.frame, key.share, "");
   }
   if (out.shapes.names.empty()) {
-    return make_error(Code::not_found, "nothing moves in the recordings: there is no key shape");
+    return make_error(Code::not_found, "nothing moves in the recordings, so there is no key shape");
   }
   log.info(std::to_string(out.shapes.names.size()) + " key shapes, by affinity propagation of " +
            std::to_string(found->compared) + " frames" +
@@ -82,7 +82,7 @@ Result<Keys> named_keys(const Project& project, const Capture& capture) {
     }
     if (track == capture.tracks.size()) {
       return make_error(Code::not_found, "key shape " + key.name + ": '" + key.input +
-                                             "' is none of the recordings");
+                                             "' is not one of the recordings");
     }
     const dam::PointTrack& take = capture.tracks[track];
     const double frame = std::floor(key.seconds * take.rate.frames_per_second() + 1e-6);
@@ -95,8 +95,9 @@ Result<Keys> named_keys(const Project& project, const Capture& capture) {
     }
     for (std::size_t p = 0; p < take.names.size(); ++p) {
       if (take.seen(std::size_t(frame), p)) continue;
-      return make_error(Code::not_found, "key shape " + key.name + ": the point " + take.names[p] +
-                                             " is not seen in that frame; choose one beside it");
+      return make_error(Code::not_found,
+                        "key shape " + key.name + ": the point " + take.names[p] +
+                            " is missing in that frame; choose a neighbouring one");
     }
     add(out, capture, track, std::size_t(frame), 0, key.name);
     if (!taken.insert(out.shapes.names.back()).second) {

@@ -84,7 +84,7 @@ Result<void> read_faces(const std::string& path, TargetMesh& out) {
 Result<std::string> read_obj_text(const std::string& path) {
   Result<std::string> text = tools::read_text_file(path);
   if (text && text->starts_with("\x1f\x8b")) {
-    return make_error(Code::unsupported, "this is a packed file; unpack it with gunzip first")
+    return make_error(Code::unsupported, "this is a compressed file; unpack it with gunzip first")
         .in_file(path);
   }
   return text;
@@ -106,7 +106,7 @@ Result<ObjFace> face_of(const Project& project, const TargetMesh& mesh) {
   for (const head::PointRow& row : *rows) {
     if (!row.vertex || *row.vertex >= mesh.vertices.size()) {
       return error_at_line(Code::not_found,
-                           "a head with shapes wants the vertex of each feature point, counted "
+                           "a head with shapes needs the vertex of each feature point, counted "
                            "from 0",
                            row.line)
           .in_file(project.head_points);
@@ -118,7 +118,7 @@ Result<ObjFace> face_of(const Project& project, const TargetMesh& mesh) {
   const Result<fap::Fapu> fapu = fap::measure_fapu(places);
   if (!fapu) {
     Error error = fapu.error();
-    error.message += "; the mesh has to stand with +Y up and to look along +Z";
+    error.message += "; the mesh must have +Y up and face along +Z";
     return error.in_file(project.head_points);
   }
   out.fapu = *fapu;

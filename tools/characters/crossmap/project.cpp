@@ -119,7 +119,8 @@ class Section {
       if (std::find(known_.begin(), known_.end(), word) != known_.end()) continue;
       std::string words;
       for (const std::string& k : known_) words += (words.empty() ? "" : ", ") + k;
-      return wrong(node, full(word.c_str()) + " is no word of a project; known are " + words);
+      return wrong(node,
+                   full(word.c_str()) + " is not a key of a project; known keys are " + words);
     }
     return {};
   }

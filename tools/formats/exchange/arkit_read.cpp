@@ -58,7 +58,7 @@ Result<Columns> read_header(const Row& header, std::vector<std::string>& warning
                          at);
   }
   if (!unknown.empty()) {
-    warnings.push_back("columns that are no ARKit blend shape are left out: " +
+    warnings.push_back("columns that are not ARKit blend shapes are ignored: " +
                        list_of_names(unknown));
   }
   columns.time = *time;
@@ -77,7 +77,7 @@ Result<ArkitRow> read_row(const Row& row, const Columns& columns) {
   const auto time = parse_time(at, row.line());
   if (!time) {
     return row.error(columns.time,
-                     "'" + std::string(at) + "' is no time; write hh:mm:ss:ff.fff or seconds");
+                     "'" + std::string(at) + "' is not a time; write hh:mm:ss:ff.fff or seconds");
   }
   ArkitRow out{*time, {}};
   for (const auto& [field, channel] : columns.channels) {
@@ -107,10 +107,10 @@ Result<std::vector<ArkitRow>> read_rows(const std::vector<dam::TableLine>& lines
     rows.push_back(std::move(*row));
   }
   if (rows.empty()) {
-    return make_error(Code::truncated, "there is no row with a face behind the header line");
+    return make_error(Code::truncated, "there is no row with a face after the header line");
   }
   if (lost > 0) {
-    warnings.push_back("rows without a face, left out: " + std::to_string(lost));
+    warnings.push_back("rows without a face, skipped: " + std::to_string(lost));
   }
   return rows;
 }
@@ -137,7 +137,7 @@ void to_radians(std::vector<ArkitRow>& rows, bool degrees, std::vector<std::stri
   }
   if (!degrees && largest > std::numbers::pi) {
     warnings.push_back(
-        "angles of head and eyes go beyond half a turn; if they are degrees, say so");
+        "angles of head and eyes exceed half a turn; if they are in degrees, use --degrees");
   }
 }
 

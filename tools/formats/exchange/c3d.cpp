@@ -68,7 +68,7 @@ Result<Parameter> read_parameter(const Numbers& in, std::size_t at, std::size_t 
   out.type = std::int8_t(in.bytes[at]);
   const std::size_t dimensions = in.bytes[at + 1];
   if (dimensions > 7 || at + 2 + dimensions > end) {
-    return broken(at, "a parameter of the C3D file has more dimensions than there may be");
+    return broken(at, "a parameter of the C3D file has too many dimensions");
   }
   out.count = 1;
   for (std::size_t d = 0; d < dimensions; ++d) {
@@ -106,7 +106,8 @@ Result<Parameters> read_parameters(const Numbers& in, std::size_t begin, std::si
       found.push_back({group, {text, std::move(*parameter)}});
     }
     if (way == 0) break;
-    if (next <= at || next > end) return broken(step, "a parameter of the C3D file leads nowhere");
+    if (next <= at || next > end)
+      return broken(step, "a parameter of the C3D file has an invalid link");
     at = next;
   }
   Parameters out;
@@ -240,7 +241,7 @@ Result<PointRecording> read_c3d(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < kBlock) {
     return make_error(Code::truncated, "a C3D file has a header of 512 bytes");
   }
-  if (bytes[1] != kMagic || bytes[0] < 2) return broken(0, "this is no C3D file");
+  if (bytes[1] != kMagic || bytes[0] < 2) return broken(0, "this is not a C3D file");
   const std::size_t begin = (bytes[0] - std::size_t(1)) * kBlock;
   if (begin + 4 > bytes.size()) {
     return error_at_bit(Code::truncated, "the C3D file ends before its parameters",
@@ -249,7 +250,7 @@ Result<PointRecording> read_c3d(std::span<const std::uint8_t> bytes) {
   const std::size_t blocks = bytes[begin + 2];
   const int processor = bytes[begin + 3];
   if (processor < 84 || processor > 86) {
-    return broken(begin + 3, "the C3D file is of a processor that is none of Intel, DEC and MIPS");
+    return broken(begin + 3, "the C3D file is not in Intel, DEC or MIPS format");
   }
   const std::size_t end = begin + blocks * kBlock;
   if (end > bytes.size()) {
@@ -279,7 +280,7 @@ Result<PointRecording> read_c3d(std::span<const std::uint8_t> bytes) {
   char text[40];
   std::snprintf(text, sizeof text, "%.6g", layout->rate);
   const Result<fap::Rate> rate = fap::parse_rate(text);
-  if (!rate || !rate->valid()) return broken(20, "the frame rate of the C3D file is none");
+  if (!rate || !rate->valid()) return broken(20, "the frame rate of the C3D file is invalid");
   out.track.rate = *rate;
   out.track.dimensions = 3;
   out.track.names = names_of(in, *parameters, layout->points);

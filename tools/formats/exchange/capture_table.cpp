@@ -63,18 +63,17 @@ Error no_table(const std::vector<dam::TableLine>& lines) {
     list.emplace_back(names.text(i));
   }
   if (numbers * 2 > names.size()) {
-    return error_at_line(
-        Code::not_found,
-        "the first line holds " + std::to_string(numbers) +
-            " numbers and no names of columns; put a header line before it (time_s,"
-            "x_0,y_0,x_1,y_1 ... for landmarks, time_s,jawOpen ... for shapes)",
-        at);
+    return error_at_line(Code::not_found,
+                         "the first line holds " + std::to_string(numbers) +
+                             " numbers and no column names; put a header line before it (time_s,"
+                             "x_0,y_0,x_1,y_1 ... for landmarks, time_s,jawOpen ... for shapes)",
+                         at);
   }
   if (names.size() < 2) {
     return error_at_line(Code::not_found,
-                         "this is text, but no table: its first line is one field, '" +
+                         "this is text, but not a table: its first line is one field, '" +
                              std::string(header.substr(0, 60)) +
-                             "'; commas, semicolons or tabs part the columns of a table",
+                             "'; commas, semicolons or tabs separate the columns of a table",
                          at);
   }
   return error_at_line(Code::not_found,
@@ -114,14 +113,14 @@ Result<CaptureTable> capture_table(std::string_view text, const CaptureTableOpti
   if (lines.size() > 1 && has_decimal_commas(lines)) {
     const std::size_t body = std::size_t(lines[1].text.data() - out.table.data());
     std::replace(out.table.begin() + std::ptrdiff_t(body), out.table.end(), ',', '.');
-    out.warnings.emplace_back("decimal commas are read as points");
+    out.warnings.emplace_back("decimal commas were read as points");
     lines = dam::table_lines(out.table);
   }
   if (is_long_table(header_of(lines))) {
     auto wide = long_to_wide(out.table, options.columns);
     if (!wide) return wide.error();
     out.table = std::move(*wide);
-    out.warnings.emplace_back("the table has a row a point, which are put together to frames");
+    out.warnings.emplace_back("the table has one row per point; rows were combined to frames");
   } else if (!options.columns.empty()) {
     auto named = rename_columns(out.table, options.columns);
     if (!named) return named.error();

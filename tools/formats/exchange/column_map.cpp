@@ -48,13 +48,13 @@ Result<ColumnRule> checked(ColumnRule rule) {
   if (!is_known(rule.meaning)) {
     return make_error(Code::invalid_argument,
                       "'" + rule.meaning +
-                          "' is nothing a column can be; write a shape (jawOpen), a coordinate "
+                          "' is not a known meaning; write a shape (jawOpen), a coordinate "
                           "(x_61, 8.3_y), a FAP (fap3), time_s, frame, confidence, or - to leave "
                           "it out");
   }
   if (!std::isfinite(rule.factor) || rule.factor == 0) {
-    return make_error(Code::invalid_argument,
-                      "the factor of " + rule.name + " is no number but 0; write one like 0.01");
+    return make_error(Code::invalid_argument, "the factor of " + rule.name +
+                                                  " is not a number, or is 0; write one like 0.01");
   }
   return rule;
 }
@@ -145,9 +145,9 @@ Result<ColumnMap> read_column_map(std::string_view text) {
     if (heading) continue;
     const auto at = std::int64_t(line.number);
     if (row.size() != 2 && row.size() != 3) {
-      return error_at_line(Code::syntax,
-                           "a column, its meaning and maybe a factor are needed, like jaw,jawOpen",
-                           at);
+      return error_at_line(
+          Code::syntax,
+          "a column, its meaning and optionally a factor are needed, like jaw,jawOpen", at);
     }
     ColumnRule rule{std::string(row.text(0)), std::string(row.text(1)), 1};
     if (row.size() == 3 && !row.text(2).empty()) rule.factor = row.number(2).value_or(0);
@@ -186,7 +186,7 @@ Result<std::string> rename_columns(std::string_view table, const ColumnMap& map)
         out += row.text(f);
       } else {
         const auto value = row.number(f);
-        if (!value) return row.wrong(f, column.name, "no number; correct it or leave it empty");
+        if (!value) return row.wrong(f, column.name, "not a number; correct it or leave it empty");
         char text[40];
         std::snprintf(text, sizeof text, "%.9g", *value * column.factor);
         out += text;

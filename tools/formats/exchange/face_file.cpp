@@ -63,12 +63,13 @@ bool is_id(const std::string& id) {
 Result<fap::RestingFace> read_ours(const Json& json) {
   const Json* version = json.find("version");
   if (version == nullptr || version->get<int>() != 1) {
-    return make_error(Code::unsupported, "a face file of another version; 1 is known");
+    return make_error(Code::unsupported,
+                      "unsupported version of a face file; version 1 is supported");
   }
   fap::RestingFace face;
   const Json* depth = json.find("depth");
   if (depth != nullptr && !depth->is_boolean()) {
-    return make_error(Code::syntax, "depth is true or false");
+    return make_error(Code::syntax, "depth must be true or false");
   }
   face.depth = depth != nullptr && depth->get<bool>();
   const auto fapu = read_units(json["fapu"]);
@@ -82,7 +83,7 @@ Result<fap::RestingFace> read_ours(const Json& json) {
     const auto place = numbers<3>(value);
     if (!is_id(id) || !place) {
       return make_error(Code::invalid_argument,
-                        "the point '" + id + "' is no feature point with three numbers");
+                        "the point '" + id + "' is not a feature point with three numbers");
     }
     face.points[id] = *place;
   }
@@ -140,16 +141,17 @@ Result<fap::RestingFace> read_face_file(std::string_view text) {
   const Result<Json> read = Json::parse(text, {.sorted = true});
   if (!read || !read->is_object()) {
     return make_error(Code::syntax,
-                      "this is no face file; import --save-face writes one, of any recording");
+                      "this is not a face file; import --save-face makes one from any recording");
   }
   const Json& json = *read;
   if (is_pixels(json)) return read_pixels(json);
   if (json["format"] != kFormat) {
-    return make_error(Code::unsupported,
-                      "this JSON is no face file; import --save-face writes one, of any recording");
+    return make_error(
+        Code::unsupported,
+        "this JSON is not a face file; import --save-face makes one from any recording");
   }
   if (json.contains("version") && !json["version"].is_number_integer()) {
-    return make_error(Code::syntax, "the version of a face file is a number");
+    return make_error(Code::syntax, "the version of a face file must be a number");
   }
   return read_ours(json);
 }

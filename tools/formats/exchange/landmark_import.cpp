@@ -43,7 +43,7 @@ Result<std::vector<std::size_t>> neutral_frames(const fap::LandmarkTrack& track,
   const std::optional<Part> part = parse_part(text);
   if (!part) {
     return make_error(Code::invalid_argument, "--neutral: '" + text +
-                                                  "' is no part of a clip; write frames (12 or "
+                                                  "' is not a part of a clip; write frames (12 or "
                                                   "0-24) or seconds (1.5s or 0.5-1.2s)");
   }
   // A time is that of the frame that is shown then.
@@ -77,14 +77,14 @@ void tell_repairs(const Repairs& repairs, std::vector<std::string>& warnings) {
   const auto tell = [&](std::size_t count, const std::string& what) {
     if (count > 0) warnings.push_back(what + std::to_string(count));
   };
-  tell(repairs.glitches, "frames in which the face jumped away and back, left out: ");
-  tell(repairs.slips, "points that jumped away and back, left out: ");
-  tell(repairs.filled_frames, "frames without a face, put between their neighbours: ");
-  tell(repairs.filled_points, "points that were not seen, put between their neighbours: ");
+  tell(repairs.glitches, "frames in which the face jumped away and back, dropped: ");
+  tell(repairs.slips, "points that jumped away and back, dropped: ");
+  tell(repairs.filled_frames, "frames without a face, interpolated: ");
+  tell(repairs.filled_points, "missing points, interpolated: ");
   if (repairs.gaps == 0) return;
   char text[120];
   std::snprintf(text, sizeof text,
-                "gaps of more than 0.2 s, which stay: %zu, the longest of %.3g s", repairs.gaps,
+                "gaps of more than 0.2 s, not repaired: %zu, the longest of %.3g s", repairs.gaps,
                 repairs.longest_gap);
   warnings.emplace_back(text);
 }
@@ -106,7 +106,7 @@ Error with_remedy(Error error, const fap::LandmarkTrack& track,
   if (missing.empty()) return error;
   return make_error(
       Code::not_found,
-      "the points have no neutral face in them, as these are missing: " + list_of_names(missing) +
+      "the points contain no neutral face, since these are missing: " + list_of_names(missing) +
           "; add them, or give the neutral face of another recording (--face-file, "
           "--neutral-from)");
 }
@@ -145,7 +145,7 @@ Result<LandmarkImport> import_landmarks(LandmarkTable table, const LandmarkImpor
     settings.neutral = frames_numbered(table.track, numbers);
     if (settings.neutral.empty() && !numbers.empty()) {
       return make_error(Code::invalid_argument,
-                        "--neutral: the face jumped away there; --no-repair takes it all the same");
+                        "--neutral: the face jumped away there; use --no-repair to accept it");
     }
   }
   auto face = fap::landmarks_to_fap(table.track, settings);
@@ -157,28 +157,26 @@ Result<LandmarkImport> import_landmarks(LandmarkTable table, const LandmarkImpor
                      std::move(table.warnings)};
   tell_repairs(out.repairs, out.warnings);
   if (out.face.lost > 0) {
-    out.warnings.push_back("frames whose head was not found, left out: " +
-                           std::to_string(out.face.lost));
+    out.warnings.push_back("frames without a head, skipped: " + std::to_string(out.face.lost));
   }
   if (out.face.head_error > kShakyHead) {
     char share[40];
     std::snprintf(share, sizeof share, "%.4g", 100 * out.face.head_error);
-    out.warnings.push_back("points that should keep their place on the head are off by " +
-                           std::string(share) +
-                           " % of the distance of the eyes: the tracking is poor, or the head "
-                           "turns in a picture without depth" +
-                           (settings.rest ? ", or the neutral face is another person's" : ""));
+    out.warnings.push_back(
+        "points that should be rigid on the head are off by " + std::string(share) +
+        " % of the eye distance: tracking is poor, or the head turns in a capture without depth" +
+        (settings.rest ? ", or the neutral face is another person's" : ""));
   }
   return out;
 }
 
 Result<fap::RestingFace> common_face(const std::vector<LandmarkTable>& tables,
                                      const LandmarkImportOptions& options) {
-  if (tables.empty()) return make_error(Code::invalid_argument, "no recording, no neutral face");
+  if (tables.empty()) return make_error(Code::invalid_argument, "a neutral face needs a recording");
   if (tables.size() > 1 && !options.neutral.empty()) {
     return make_error(Code::invalid_argument,
-                      "--neutral is a part of one recording, and there are " +
-                          std::to_string(tables.size()) + "; --neutral-from says of which");
+                      "--neutral is for a single recording, but there are " +
+                          std::to_string(tables.size()) + "; select one with --neutral-from");
   }
   fap::LandmarkTrack all = tables[0].track;
   const auto neutral = neutral_frames(all, options.neutral);
@@ -187,8 +185,8 @@ Result<fap::RestingFace> common_face(const std::vector<LandmarkTable>& tables,
     const fap::LandmarkTrack& track = tables[i].track;
     if (track.points != all.points || track.depth != all.depth) {
       return make_error(Code::invalid_argument,
-                        "the recordings have different points, so that they cannot have one "
-                        "neutral face; --neutral-from or --face-file names it");
+                        "the recordings have different points and cannot share a neutral face; "
+                        "give it with --neutral-from or --face-file");
     }
     const std::int64_t behind = all.frames.back().number + 1;
     for (fap::LandmarkFrame frame : track.frames) {

@@ -48,15 +48,14 @@ Result<std::vector<RowTime>> times_of(const std::vector<LandmarkRow>& rows,
 
 void tell(const LeftOutRows& left_out, std::vector<std::string>& warnings) {
   if (left_out.unsure > 0) {
-    warnings.push_back("rows in which the tracker was not sure of the face, left out: " +
-                       std::to_string(left_out.unsure));
+    warnings.push_back("rows with low confidence, skipped: " + std::to_string(left_out.unsure));
   }
   if (left_out.other_faces > 0) {
-    warnings.push_back("rows of other faces, left out: " + std::to_string(left_out.other_faces) +
-                       " (--face tells which face to read)");
+    warnings.push_back("rows of other faces, skipped: " + std::to_string(left_out.other_faces) +
+                       " (select a face with --face)");
   }
   if (left_out.blind > 0) {
-    warnings.push_back("points that were not seen: " + std::to_string(left_out.blind));
+    warnings.push_back("missing points: " + std::to_string(left_out.blind));
   }
 }
 
@@ -80,10 +79,10 @@ Error no_rows(const LandmarkTableOptions& options, const LeftOutRows& left_out) 
   }
   if (left_out.unsure > 0) {
     return make_error(Code::truncated,
-                      "the tracker was not sure of the face in any row; --confidence 0 takes them "
-                      "if success is not 0");
+                      "the tracker has low confidence in all rows; use --confidence 0 to accept "
+                      "those with success not 0");
   }
-  return make_error(Code::truncated, "there is no row behind the header line");
+  return make_error(Code::truncated, "there is no row after the header line");
 }
 
 }  // namespace

@@ -36,10 +36,10 @@ Result<Motion> read_motion(std::vector<std::uint8_t> bytes, FrameNumbers numbers
     case FileKind::fba_stream:
       return decode_motion(std::move(bytes));
     case FileKind::media:
-      return make_error(Code::unsupported, "a container is to be opened before it is read");
+      return make_error(Code::unsupported, "a container must be opened before it is read");
     default:
       return make_error(Code::syntax,
-                        "this holds no face: .fap text, a raw .fba stream or an mp4, mkv or ts "
+                        "this contains no face: .fap text, a raw .fba stream or an mp4, mkv or ts "
                         "file with an FBA track is needed");
   }
 }

@@ -126,7 +126,7 @@ Result<PointHeader> read_point_header(const Row& row, std::vector<std::string>& 
     header.fields.push_back(fields);
   }
   if (depth && header.dimensions == 2) {
-    warnings.emplace_back("not all points have a z, so that it is left out");
+    warnings.emplace_back("not all points have a z, so z is ignored");
   }
   return header;
 }
@@ -155,7 +155,7 @@ Result<void> read_point_row(const Row& row, const PointTableOptions& options, Po
       const std::size_t field = *fields[k];
       const auto value = row.number(field);
       if (!value && !row.text(field).empty()) {
-        return row.wrong(field, header.names[field], "no number; correct it or leave it empty");
+        return row.wrong(field, header.names[field], "not a number; correct it or leave it empty");
       }
       place[k] = value && std::isfinite(*value) && !lost ? *value : kUnseen;
     }
@@ -182,7 +182,7 @@ Result<PointRecording> read_point_table(std::string_view text, const PointTableO
   auto header = read_point_header(Row(lines[0], separator), out.warnings);
   if (!header) return header.error();
   if (lines.size() == 1)
-    return make_error(Code::truncated, "there is no row behind the header line");
+    return make_error(Code::truncated, "there is no row after the header line");
   PointRows table{std::move(*header), {}, {}};
   if (!table.header.time && !options.rate) {
     return make_error(Code::invalid_argument,
@@ -209,7 +209,7 @@ Result<PointRecording> read_point_table(std::string_view text, const PointTableO
   if (frames > 20 * table.times.size() + 1000 || frames > kMostCoordinates / track.size()) {
     return make_error(Code::out_of_range,
                       std::to_string(frames) + " frames of " + std::to_string(track.names.size()) +
-                          " points are too many; split the table, or mend its times");
+                          " are too many; split the table, or correct its times");
   }
   out.start = track.rate.seconds(double(first));
   track.values.assign(frames * track.size(), kUnseen);

@@ -29,7 +29,7 @@ Result<Columns> read_header(const Row& header, dam::Poses& poses) {
       label = i;
       continue;
     }
-    if (name.empty()) return header.error(i, "a control has a name");
+    if (name.empty()) return header.error(i, "a control needs a name");
     if (std::find(poses.names.begin(), poses.names.end(), name) != poses.names.end()) {
       return header.named_twice(i);
     }
@@ -50,7 +50,7 @@ Result<dam::Poses> read_pose_table(std::string_view text, Blanks blanks) {
   const auto lines = dam::table_lines(text);
   if (lines.size() < 2) {
     return make_error(Code::truncated,
-                      "a table of poses has a line \"pose,CONTROL,...\" and a row a pose");
+                      "a table of poses needs a header \"pose,CONTROL,...\" and one row per pose");
   }
   const char separator = separator_of(lines[0].text);
   dam::Poses poses;
@@ -60,7 +60,7 @@ Result<dam::Poses> read_pose_table(std::string_view text, Blanks blanks) {
     const Row row(lines[i], separator);
     if (auto ok = row.check_size(columns->count); !ok) return ok.error();
     const std::string label(row.text(columns->label));
-    if (label.empty()) return row.error(columns->label, "a pose has a name");
+    if (label.empty()) return row.error(columns->label, "a pose needs a name");
     if (std::find(poses.labels.begin(), poses.labels.end(), label) != poses.labels.end()) {
       return row.error(columns->label, "the pose " + label + " is there twice");
     }

@@ -63,7 +63,7 @@ std::vector<VisemeEvent> script_events(const dam::Script& script) {
 
 Result<VisemeTrack> track_of_events(std::vector<VisemeEvent> events, const fap::Rate& rate,
                                     double crossfade) {
-  if (!rate.valid()) return make_error(Code::invalid_argument, "the frame rate is none");
+  if (!rate.valid()) return make_error(Code::invalid_argument, "the frame rate is invalid");
   VisemeTrack track{rate, std::move(events), {}};
   if (track.events.empty()) return track;
   const std::vector<VisemeEvent>& list = track.events;

@@ -49,8 +49,8 @@ Result<FileLock> FileLock::take(const std::string& path) {
       const bool taken = errno == EWOULDBLOCK;
       const std::string reason = std::strerror(errno);
       ::close(descriptor);
-      return make_error(Code::io, taken ? "another program is adding to this file; wait for its "
-                                          "end, or add to a file of your own and merge them"
+      return make_error(Code::io, taken ? "another program is writing to this file; wait for its "
+                                          "end, or use another file and merge them"
                                         : "cannot be locked: " + reason)
           .in_file(path);
     }

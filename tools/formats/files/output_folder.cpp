@@ -33,7 +33,7 @@ Result<void> try_output_folder(const std::string& path) {
     nearest = nearest.parent_path();
   }
   if (!fs::is_directory(nearest, status)) {
-    return make_error(Code::io, nearest.string() + " is no folder; give another name")
+    return make_error(Code::io, nearest.string() + " is not a folder; give another name")
         .in_file(path);
   }
   auto can = try_output((nearest / unforeseen_name()).string());
@@ -45,13 +45,13 @@ Result<OutputFolder> OutputFolder::create(const std::string& path, Replaceable r
   std::error_code status;
   if (fs::exists(path, status)) {
     if (!fs::is_directory(path, status)) {
-      return make_error(Code::io, "is there already and is no folder; give another name")
+      return make_error(Code::io, "is there already and is not a folder; give another name")
           .in_file(path);
     }
     for (const fs::directory_entry& entry : fs::directory_iterator(path, status)) {
       if (entry.is_regular_file(status) && replaceable(entry.path().filename().string())) continue;
       return make_error(Code::io, "the folder holds \"" + entry.path().filename().string() +
-                                      "\", which is none of its segments; give another name or "
+                                      "\", which is not one of its segments; give another name or "
                                       "remove it")
           .in_file(path);
     }

@@ -66,7 +66,7 @@ std::string adaptation_text(const std::string& output, const std::string& base,
   std::string little;
   for (const dam::AdaptedControl& control : report.controls)
     if (control.base < kLittle) little += " " + control.name;
-  if (!little.empty()) text += "of these the base tells next to nothing:" + little + "\n";
+  if (!little.empty()) text += "the base hardly predicts: " + little + "\n";
   return text + output + ": adapted";
 }
 

@@ -50,7 +50,7 @@ std::string lag_text(const dam::Alignment& alignment) {
 }
 
 std::string explained_text(const dam::TrainSummary& summary) {
-  if (!summary.held_out) return "too few sentences to tell what is explained of others\n";
+  if (!summary.held_out) return "too few sentences to estimate the explained variance\n";
   double sum = 0;
   std::size_t moving = 0;
   const dam::ControlNote* least = nullptr;

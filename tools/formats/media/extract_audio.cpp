@@ -46,9 +46,10 @@ Error does_not_fit(std::string_view extension, AVCodecID codec) {
   for (const CopyTarget& target : kTargets) {
     if (takes(target, codec)) fitting += std::string(target.extension) + ", ";
   }
-  return make_error(Code::unsupported,
-                    std::string("the audio track is ") + avcodec_get_name(codec) + ", which a " +
-                        std::string(extension) + " file cannot take; use " + fitting + "or .wav");
+  return make_error(Code::unsupported, std::string("the audio track is ") +
+                                           avcodec_get_name(codec) + ", which a " +
+                                           std::string(extension) + " file does not support; use " +
+                                           fitting + "or .wav");
 }
 
 Result<void> copy_packets(Input& input, const AVStream& stream, Muxer& muxer) {

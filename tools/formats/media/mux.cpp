@@ -71,7 +71,7 @@ Result<void> check_type(const FileType& type, const MuxInput& input, const MuxOp
     return unsupported("planes share packets in .ts files only");
   }
   if (input.video != nullptr && !type.takes(input.video->codec)) {
-    return unsupported("a " + name + " file takes no " + name_of(input.video->codec) +
+    return unsupported("a " + name + " file does not support " + name_of(input.video->codec) +
                        " video; use .mp4 or .mkv");
   }
   const bool text = input.texts != nullptr && !input.texts->empty();
@@ -79,19 +79,20 @@ Result<void> check_type(const FileType& type, const MuxInput& input, const MuxOp
     return unsupported("text goes into plain .mp4, .mkv and .m3u8 files only");
   }
   if (input.face != nullptr && !type.face) {
-    return unsupported("a " + name + " file holds sound only; use .mp4, .mkv or .ts for a face");
+    return unsupported("a " + name +
+                       " file can only contain sound; use .mp4, .mkv or .ts for a face");
   }
   const AudioCodec codec =
       input.encoded != nullptr ? input.encoded->format.codec : options.audio.codec;
   const bool sound =
       input.audio != nullptr || input.audio_file != nullptr || input.encoded != nullptr;
   if (sound && !type.takes(codec)) {
-    return unsupported("a " + name + " file takes no " + name_of(codec) + "; " +
+    return unsupported("a " + name + " file does not support " + name_of(codec) + "; " +
                        (type.opus ? "code the sound as opus" : "code the sound as aac") +
                        ", or use .mp4 or .mkv");
   }
   if (sound && options.systems && codec != AudioCodec::aac) {
-    return unsupported("a Systems presentation takes AAC; code the sound as aac");
+    return unsupported("a Systems presentation needs AAC; encode the sound as aac");
   }
   return {};
 }

@@ -50,7 +50,7 @@ Result<av::Frame> draw(std::string_view svg) {
 // The renderer's 32-bit pixels without their transparency.
 Result<av::Frame> to_rgb(const AVFrame& drawn) {
   if (drawn.format != AV_PIX_FMT_RGB32) {
-    return make_error(Code::unsupported, "the renderer gives pixels of an unknown kind");
+    return make_error(Code::unsupported, "the renderer returned an unknown pixel format");
   }
   av::Frame frame(av_frame_alloc());
   if (!frame) return av::no_memory();

@@ -64,7 +64,7 @@ Result<Documents> parse_documents(std::string_view text) {
     if (!one) {
       return error_at_line(Code::syntax,
                            documents.values.empty()
-                               ? "this begins like JSON and is none; is the file complete?"
+                               ? "this begins like JSON but is invalid; is the file complete?"
                                : "this line is no JSON, as those before it are",
                            line.number);
     }
@@ -85,12 +85,12 @@ Result<const JsonFormat*> choose_format(const std::vector<Node>& roots, std::str
   }
   if (!name.empty() && named != nullptr) return named;
   if (!name.empty()) {
-    return make_error(Code::invalid_argument, "this is JSON, which is no script of the format " +
+    return make_error(Code::invalid_argument, "this is JSON, but not a script of the format " +
                                                   dam::in_quotes(name) +
                                                   "; of JSON, these are read: " + names);
   }
   return error_at_line(
-      Code::syntax, "JSON that is no script of a known format; of JSON, these are read: " + names,
+      Code::syntax, "this JSON is not a script of a known format; supported JSON formats: " + names,
       1);
 }
 

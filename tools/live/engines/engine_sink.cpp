@@ -115,7 +115,7 @@ class EngineSink : public media::LiveSink {
   Result<void> start(const LiveInfo& info) override {
     if (info.face_config.empty()) {
       return make_error(Code::invalid_argument,
-                        "there is no face to send, and engines take no sound");
+                        "there is no face to send, and engines do not accept sound");
     }
     timescale_ = info.timescale;
     if (options_.instead) return {};

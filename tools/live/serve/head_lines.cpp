@@ -30,12 +30,12 @@ Result<void> HeadLines::push(std::vector<std::string> lines) {
   for (const std::string& line : lines) {
     bytes += line.size();
     if (ends_the_head(line)) {
-      return make_error(Code::invalid_argument, "a head has no end but DELETE");
+      return make_error(Code::invalid_argument, "\"end\" is not supported for a head; use DELETE");
     }
   }
   if (queue_.waiting() + lines.size() > kMostLines || bytes > kMostBytes) {
     return make_error(Code::out_of_range,
-                      "too many lines wait to be spoken; send them when others have been heard");
+                      "too many lines are queued; send more when some have been spoken");
   }
   Result<void> done;
   for (std::string& line : lines) {

@@ -36,7 +36,7 @@ std::string receive_advice(const media::ReceiveStats& stats) {
     out += tools::format("sessions: %lld, on one clock\n", (long long)(stats.sessions));
   }
   if (stats.foreign > 0) {
-    out += tools::format("ignored: %lld datagrams, damaged or of others than the sender\n",
+    out += tools::format("ignored: %lld datagrams, damaged or not from the sender\n",
                          (long long)(stats.foreign));
   }
   if (stats.wait <= 0 || stats.latest <= 0.01) return out;

@@ -204,9 +204,9 @@ void Sink::describe() {
 }
 
 Result<void> Sink::send_face(const LiveUnit& unit) {
-  if (info_.face_config.empty()) return invalid("start() was not told of a face");
+  if (info_.face_config.empty()) return invalid("start() was called without a face");
   const std::int64_t time = unit.time + std::int64_t(info_.timescale) * kWebTimeZero;
-  if (time < 0) return invalid("a unit lies more than a second before time 0");
+  if (time < 0) return invalid("a unit is more than a second before time 0");
   if (unit.duration < 0 || unit.duration > UINT32_MAX || unit.bytes.empty()) {
     return invalid("a unit is empty or its duration does not fit in 32 bits");
   }
@@ -262,9 +262,9 @@ void Sink::send_values(const LiveUnit& unit) {
 }
 
 Result<void> Sink::send_sound(const LiveUnit& unit) {
-  if (!info_.audio) return invalid("start() was not told of a sound");
+  if (!info_.audio) return invalid("start() was called without sound");
   const std::int64_t time = unit.time + std::int64_t(info_.audio->sample_rate) * kWebTimeZero;
-  if (time < 0) return invalid("a packet lies more than a second before time 0");
+  if (time < 0) return invalid("a packet is more than a second before time 0");
   if (peer_connections_) peer_connections_->send(unit, {});
   const bool follows = packets_.empty() || packets_.back().time + packets_.back().duration == time;
   if (!follows) {
@@ -279,7 +279,7 @@ Result<void> Sink::send_sound(const LiveUnit& unit) {
 /// All sockets of the face have it, between the frames.
 Result<void> Sink::publish_note(const std::string& json) {
   Result<tools::Json> note = tools::Json::parse(json);
-  if (!note || !note->is_object()) return invalid("what is told has to be a JSON object");
+  if (!note || !note->is_object()) return invalid("an event must be a JSON object");
   if (const tools::Json* time = note->find("time"); time != nullptr && time->is_number()) {
     (*note)["time"] = time->get<double>() + kWebTimeZero;
   }
@@ -312,7 +312,7 @@ Result<void> check(const WebOptions& options, int most_clients) {
     return invalid("1 to " + std::to_string(most_clients) + " clients can be served");
   }
   if (options.packets_per_segment < 1 || options.packets_per_segment > 64) {
-    return invalid("a segment takes 1 to 64 packets of sound");
+    return invalid("a segment has 1 to 64 packets of sound");
   }
   if (options.client_bytes < 4096 || !(options.stall_seconds > 0)) {
     return invalid("a client needs at least 4096 bytes and some patience");
@@ -330,14 +330,14 @@ Result<void> check(const WebOptions& options, int most_clients) {
     const bool whole = origin.find('/', origin.find("//") + 2) == std::string::npos;
     if (!known || (origin != "*" && !whole) || !is_plain(origin)) {
       return make_error(Code::invalid_argument,
-                        "'" + origin + "' is no origin; write it as https://example.org, or *");
+                        "'" + origin + "' is not an origin; write it as https://example.org, or *");
     }
   }
   for (const std::string& name : options.host_names) {
     if (name.empty() || !is_plain(name) || name.find('/') != std::string::npos) {
       return make_error(
           Code::invalid_argument,
-          "'" + name + "' is no name of a host; write it as example.org, without http://");
+          "'" + name + "' is not a host name; write it as example.org, without http://");
     }
   }
   return {};

@@ -85,7 +85,8 @@ Result<void> PeerHub::start(const media::LiveInfo& info, int most, int per_addre
   }
   Result<Feed> feed = Feed::make(info, options_.repeat);
   if (!feed) return feed.error();
-  if (!now_ && !is_there()) return make_error(Code::unsupported, "there is no module for WebRTC");
+  if (!now_ && !is_there())
+    return make_error(Code::unsupported, "the module for WebRTC is missing");
   feed_.emplace(std::move(*feed));
   most_ = most;
   per_address_ = per_address;

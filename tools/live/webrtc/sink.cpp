@@ -16,7 +16,7 @@ constexpr int kMostRepeat = 30;
 Error unknown(const std::string& part) {
   return make_error(Code::invalid_argument,
                     "'" + part +
-                        "' is no option of an address of WebRTC; there is stun=HOST:PORT, "
+                        "' is not an option of a WebRTC address; options are stun=HOST:PORT, "
                         "turn=USER:PASSWORD@HOST:PORT and repeat=0..30");
 }
 

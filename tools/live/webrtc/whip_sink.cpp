@@ -89,7 +89,7 @@ Result<void> WhipSink::start(const media::LiveInfo& info) {
   if (answer.status != 201) {
     return make_error(Code::io, "the server refuses with " + std::to_string(answer.status) +
                                     (answer.status == 401 || answer.status == 403
-                                         ? "; does it want a token (whip://TOKEN@HOST/...)?"
+                                         ? "; does it need a token (whip://TOKEN@HOST/...)?"
                                          : ": " + answer.body.substr(0, 200)));
   }
   resource_ = answer.location;

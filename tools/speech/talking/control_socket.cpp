@@ -71,7 +71,7 @@ Result<std::unique_ptr<ControlSocket>> ControlSocket::open(const std::string& pa
   if (path.empty() || path.size() >= sizeof address.sun_path) {
     return make_error(Code::invalid_argument, "the path of a control socket has 1 to " +
                                                   std::to_string(sizeof address.sun_path - 1) +
-                                                  " bytes; take a shorter one")
+                                                  " bytes; use a shorter one")
         .in_file(path);
   }
   std::memcpy(address.sun_path, path.data(), path.size());

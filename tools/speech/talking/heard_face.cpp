@@ -113,7 +113,7 @@ class Follower : public HeardFace {
 Result<std::unique_ptr<HeardFace>> HeardFace::open(const dam::Model& model, int sample_rate,
                                                    const HeardFaceOptions& options) {
   if (!(options.delay >= kLeastDelay && options.delay <= kMostDelay)) {
-    return make_error(Code::invalid_argument, "the delay must lie between 0.08 and 2 s");
+    return make_error(Code::invalid_argument, "the delay must be between 0.08 and 2 s");
   }
   if (auto ok = dam::validate(options.synthesis); !ok) return ok.error();
   voice::ListenOptions listening;

@@ -79,8 +79,7 @@ Result<LineCommand> command_of(const Json& object, std::string line, bool json) 
   command.text = std::move(*text);
   command.payload = json ? std::move(line) : command.text;
   if (command.payload.find_first_not_of(" \t\r\n") == std::string::npos) {
-    return make_error(Code::invalid_argument,
-                      "there is nothing to say; it is to stand in \"text\"");
+    return make_error(Code::invalid_argument, "there is nothing to say; put it into \"text\"");
   }
   return command;
 }

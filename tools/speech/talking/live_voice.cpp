@@ -29,7 +29,7 @@ constexpr double kVoiceFade = 0.02;  // seconds, of sound that breaks off
 
 Result<void> check(const LiveVoiceOptions& options) {
   if (options.delay >= kLeastLiveDelay && options.delay <= kMostLiveDelay) return {};
-  return make_error(Code::invalid_argument, "the delay must lie between 0.25 and 2 s");
+  return make_error(Code::invalid_argument, "the delay must be between 0.25 and 2 s");
 }
 
 }  // namespace

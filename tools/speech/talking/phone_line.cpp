@@ -35,8 +35,7 @@ Result<std::optional<dam::Phone>> parse_phone_line(std::string_view line) {
   dam::Phone phone;
   const std::string_view second = take_word(line), label = take_word(line);
   if (!read_seconds(first, phone.start) || !read_seconds(second, phone.end) || label.empty()) {
-    return make_error(Code::syntax,
-                      "a line must hold start_s, end_s and a phone, as in: 0.21 0.25 B");
+    return make_error(Code::syntax, "a line needs start_s, end_s and a phone, as in: 0.21 0.25 B");
   }
   phone.label = dam::arpabet_label(label);
   if (phone.label.empty()) {

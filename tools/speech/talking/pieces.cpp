@@ -164,7 +164,7 @@ Result<SpokenLine> read_piece(std::string_view json, const voice::VoiceOptions& 
   line.text = *text;
   if (found && !text->empty()) {
     if (const auto timings = scripts::read_labels(sound.labels); !timings) {
-      line.doubt = "its members are no times (" + timings.error().message + ")";
+      line.doubt = "its members are not timings (" + timings.error().message + ")";
       sound.labels.clear();
     }
   }

@@ -46,7 +46,7 @@ Result<BareSound> parse_bare_sound(const std::string& text) {
   if (!rate || !channels || !rate_fits(*rate) || *channels < 1 || *channels > kMostChannels) {
     return make_error(Code::invalid_argument,
                       "'" + text +
-                          "' is no rate of samples; write 16000, or 48000:2 for two "
+                          "' is not a sample rate; write 16000, or 48000:2 for two "
                           "channels");
   }
   return BareSound{*rate, *channels};
@@ -91,7 +91,7 @@ Result<bool> SoundBytes::read_head() {
     if (rest_.size() < 12) return false;
     if (!(is_tag(&rest_[0], "RIFF") || is_tag(&rest_[0], "RF64")) || !is_tag(&rest_[8], "WAVE")) {
       return make_error(Code::syntax,
-                        "this does not begin like WAV; bare samples want their rate (--pcm 16000), "
+                        "this does not begin like WAV; raw samples need their rate (--pcm 16000), "
                         "other formats ffmpeg -i IN -f wav -");
     }
     rest_.erase(rest_.begin(), rest_.begin() + 12);
@@ -112,7 +112,8 @@ Result<bool> SoundBytes::read_head() {
       return make_error(Code::syntax, "there is no sound in the first MB of this WAV");
     }
     if (is_tag(&rest_[0], "fmt ")) {
-      if (size > kLongestFormat) return make_error(Code::syntax, "the format of this WAV is none");
+      if (size > kLongestFormat)
+        return make_error(Code::syntax, "the format of this WAV is invalid");
       if (rest_.size() < 8 + padded) return false;
       if (auto ok = read_format(std::span(rest_).subspan(8, size)); !ok) return ok.error();
       rest_.erase(rest_.begin(), rest_.begin() + std::ptrdiff_t(8 + padded));

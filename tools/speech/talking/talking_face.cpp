@@ -144,7 +144,7 @@ Result<void> TalkingFace::show(dam::Signal signal, std::size_t at) {
   Result<fap::Sequence> clip = dam::to_sequence(signal);
   if (!clip) return clip.error();
   if (clip->frames.size() <= at) {
-    return make_error(Code::invalid_argument, "the script lasts no time");
+    return make_error(Code::invalid_argument, "the script has no duration");
   }
   ++pieces_;
   signal_ = std::move(signal);

@@ -83,7 +83,7 @@ Result<TimedSpeech> time_sound(TimedSound sound, const ScriptInput& input, const
   if (!timed) {
     if (sound.text.empty() || sound.audio.samples.empty()) {
       return make_error(Code::invalid_argument,
-                        "neither times nor a text to find them by; give one of them");
+                        "neither timings nor a text to align; give one of them");
     }
     Result<TimedSpeech> aligned = by_alignment(sound, input, log);
     if (!aligned) return aligned.error();

@@ -64,7 +64,7 @@ Result<TimedSpeech> run_voice_command(const std::string& text, const VoiceComman
   const std::string& sound_file = sound_in_file ? wav : out;
   if (!is_there(sound_file)) {
     return make_error(Code::not_found,
-                      run.what + " made no sound" +
+                      run.what + " produced no sound" +
                           (sound_in_file ? "; it is to write it to {wav}"
                                          : "; {wav} in its command is where a file for it goes") +
                           tools::last_words(job.err, run));

@@ -122,7 +122,8 @@ Result<dam::Script> read_script(const std::string& path, const ScriptInput& inpu
     const Result<std::vector<media::TextTrack>> tracks = media::read_text_tracks(path);
     if (!tracks) return tracks.error();
     if (tracks->empty()) {
-      return make_error(Code::not_found, "the file carries no words and no phones").in_file(path);
+      return make_error(Code::not_found, "the file contains neither words nor phones")
+          .in_file(path);
     }
     return script_of(dam::labels_of_tier(grid_of(*tracks), input.reading), path, input, log,
                      from_words);

@@ -29,7 +29,7 @@ Result<void> check_audio(const media::Pcm& audio) {
     return make_error(Code::truncated, "less than 0.1 s of audio to align; is the file complete?");
   }
   if (audio.duration() > kMaxAlignSeconds) {
-    return make_error(Code::out_of_range, "more than four hours of sound to align; part it");
+    return make_error(Code::out_of_range, "more than four hours of sound to align; split it");
   }
   return {};
 }
@@ -99,7 +99,7 @@ Error refusal(const Alignment& found, const AlignOptions& options) {
             (unsaid == 1 ? " words is" : " words are") + " not found in it, the first is '" +
             first + "'; ";
   }
-  return make_error(Code::out_of_range, what + "another text, too much noise, or nobody speaks");
+  return make_error(Code::out_of_range, what + "a different text, too much noise, or no speech");
 }
 
 std::size_t least_phones(const std::vector<SpokenWord>& words) {
@@ -118,7 +118,7 @@ Result<Alignment> align(const media::Pcm& audio, std::string_view transcript,
                         const AlignOptions& options) {
   if (auto good = check_audio(audio); !good) return good.error();
   if (transcript.size() > kMostTranscript) {
-    return make_error(Code::out_of_range, "a transcript of more than 1 MB; part it");
+    return make_error(Code::out_of_range, "a transcript of more than 1 MB; split it");
   }
   const auto parted = parted_words(transcript, options.language);
   if (!parted) return parted.error();
@@ -152,7 +152,7 @@ Result<Alignment> align(const media::Pcm& audio, std::string_view transcript,
     if (options.least_confidence > 0) {
       return make_error(Code::out_of_range,
                         "the recogniser cannot fit the transcript to the recording; check that the "
-                        "text is what is said, and that somebody speaks");
+                        "text is what is said, and that there is speech");
     }
     result.approximate = true;
     result.warnings.push_back(

@@ -90,7 +90,7 @@ void warn_of_put_in(Alignment& alignment) {
     if (++count > kMostNamed) continue;
     alignment.warnings.push_back("something is said that the transcript does not have (" +
                                  place_of(words, one.before, one.before) + span_of(one) +
-                                 "); the face says what is heard, about " + phones_of(one));
+                                 "); the face uses the recognised phones, about " + phones_of(one));
   }
   add_rest(count, "places where more is said than the transcript has", alignment);
 }

@@ -95,7 +95,7 @@ Result<std::vector<double>> read_phone_pairs(const std::string& path,
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) {
     return make_error(Code::not_found,
-                      "there is no model of phones here; install the Debian package "
+                      "there is no phone model here; install the Debian package "
                       "pocketsphinx-en-us or set the path")
         .in_file(path);
   }
@@ -104,7 +104,7 @@ Result<std::vector<double>> read_phone_pairs(const std::string& path,
   const std::unique_ptr<ngram_model_t, FreeSphinx> model(
       ngram_model_read(nullptr, path.c_str(), NGRAM_AUTO, maths.get()));
   if (!model) {
-    return make_error(Code::syntax, "this is no model of phones").in_file(path);
+    return make_error(Code::syntax, "this is not a phone model").in_file(path);
   }
   std::vector<double> pairs;
   for (const std::string& before : phones) {

@@ -158,15 +158,15 @@ void sum_up(Heard& heard) {
     sum += phone.duration() * heard.confidences[i];
   }
   if (seconds < kLeastSpeech) {
-    heard.warnings.push_back("nothing was heard that could be speech; the face stays still");
+    heard.warnings.push_back("no speech was recognised; the face stays still");
     return;
   }
   heard.confidence = sum / seconds;
   if (heard.confidence < kUnsure) {
-    heard.warnings.push_back("this may be no speech: the readings hardly agree");
+    heard.warnings.push_back("this may not be speech: the hypotheses hardly agree");
   } else if (heard.confidence < kGuessed) {
     heard.warnings.push_back(
-        "much of what is heard is a guess; a clearer recording, or what is said in it, helps");
+        "recognition is uncertain; use a clearer recording, or give a transcript");
   }
 }
 
@@ -184,10 +184,10 @@ Result<Heard> listen(const media::Pcm& audio, const ListenOptions& options) {
   }
   const double seconds = audio.duration();
   if (seconds < kLeastSeconds) {
-    return make_error(Code::truncated, "less than 0.1 s of sound: there is nothing to hear");
+    return make_error(Code::truncated, "less than 0.1 s of sound: nothing to recognise");
   }
   if (seconds > kMostListenSeconds) {
-    return make_error(Code::out_of_range, "more than four hours of sound; part it");
+    return make_error(Code::out_of_range, "more than four hours of sound; split it");
   }
   auto model = load_hearing(options);
   if (!model) return model.error();
@@ -212,8 +212,7 @@ Result<Heard> listen(const media::Pcm& audio, const ListenOptions& options) {
   take_words(drawn.words, seconds, heard);
   sum_up(heard);
   if (is_clipped(audio.samples)) {
-    heard.warnings.push_back(
-        "the sound is cut off at full scale in many places; record it more softly");
+    heard.warnings.push_back("the sound is clipped in many places; record it at a lower level");
   }
   return heard;
 }

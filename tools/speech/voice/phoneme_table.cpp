@@ -65,7 +65,7 @@ Result<std::vector<PhonemeName>> read_phoneme_table(std::string_view bytes, std:
   std::map<std::uint8_t, std::pair<PhonemeName, std::uint8_t>> by_code;
   for (std::size_t depth = 0; table != nullptr; ++depth) {
     if (depth == kMostDepth || table->below > tables->size()) {
-      return make_error(Code::syntax, "a table of espeak-ng's phontab stands on none");
+      return make_error(Code::syntax, "a table of espeak-ng's phontab has an invalid base table");
     }
     for (std::size_t i = 0; i < table->count; ++i) {
       const std::string_view entry = bytes.substr(table->at + i * kEntry, kEntry);

@@ -129,7 +129,7 @@ Result<std::vector<SpokenWord>> find_pronunciations(const std::vector<std::strin
   for (const std::string& word : words) {
     const auto known = dictionary.find(dam::lower_case(word));
     if (known == dictionary.end()) {
-      warnings.push_back("no pronunciation for \"" + word + "\"; it gets what is heard there");
+      warnings.push_back("no pronunciation for \"" + word + "\"; it gets the recognised phones");
       spoken.push_back({word, {}, true});
     } else {
       spoken.push_back({word, known->second, english && missing.contains(word)});

@@ -95,7 +95,7 @@ bool skip_s3_head(ModelBytes& in) {
 // Phones, their number, and the number of all states; those without context come first.
 Result<std::size_t> read_phones(const ModelFile& file, SoundModel& model) {
   ModelBytes in(file.data);
-  if (in.take(4) != "BMDF") return file.damaged("this is no binary model definition");
+  if (in.take(4) != "BMDF") return file.damaged("this is not a binary model definition");
   in.number();  // version
   in.take(std::size_t(std::max(in.number(), 0)));
   std::int32_t head[10];  // phones, triphones, states each, their senones, all senones, ...
@@ -114,7 +114,7 @@ Result<std::size_t> read_phones(const ModelFile& file, SoundModel& model) {
 
 Result<std::vector<float>> read_gaussians(const ModelFile& file, SoundModel& model) {
   ModelBytes in(file.data);
-  if (!skip_s3_head(in)) return file.damaged("this is no table of Gaussians");
+  if (!skip_s3_head(in)) return file.damaged("this is not a table of Gaussians");
   const std::int32_t books = in.number(), streams = in.number(), densities = in.number();
   bool fits = books == std::int32_t(model.phones.size()) && streams == std::int32_t(kStreams) &&
               densities > 0 && densities <= std::int32_t(kMostDensities);
@@ -129,7 +129,7 @@ Result<std::vector<float>> read_gaussians(const ModelFile& file, SoundModel& mod
   const std::size_t count = model.phones.size() * kStreams * kCepstra * model.densities;
   if (in.number() != std::int32_t(count)) return file.damaged("its size is wrong");
   const auto values = in.floats(count);
-  if (!in.good()) return file.damaged("it is cut off or has no numbers");
+  if (!in.good()) return file.damaged("it is truncated or has no numbers");
   // Density last, so that all of them are computed side by side.
   std::vector<float> turned(count);
   for (std::size_t book = 0; book < model.phones.size() * kStreams; ++book) {
@@ -194,14 +194,14 @@ Result<void> read_weights(const ModelFile& file, std::size_t senones, SoundModel
 
 Result<void> read_transitions(const ModelFile& file, SoundModel& model) {
   ModelBytes in(file.data);
-  if (!skip_s3_head(in)) return file.damaged("this is no table of transitions");
+  if (!skip_s3_head(in)) return file.damaged("this is not a table of transitions");
   constexpr std::size_t kFrom = kStatesPerPhone, kTo = kStatesPerPhone + 1;
   const bool fits = in.number() == std::int32_t(model.phones.size()) &&
                     in.number() == std::int32_t(kFrom) && in.number() == std::int32_t(kTo);
   const std::size_t count = model.phones.size() * kFrom * kTo;
   if (!fits || in.number() != std::int32_t(count)) return file.damaged("its size is wrong");
   const auto values = in.floats(count);
-  if (!in.good()) return file.damaged("it is cut off or has no numbers");
+  if (!in.good()) return file.damaged("it is truncated or has no numbers");
   for (std::size_t phone = 0; phone < model.phones.size(); ++phone) {
     for (std::size_t from = 0; from < kFrom; ++from) {
       const float* row = &values[(phone * kFrom + from) * kTo];

@@ -167,8 +167,8 @@ std::string warn_of_letters(const RawSpeech& raw, const text::Utterance& utteran
   }
   if (words.size() > 5) text += " and " + std::to_string(words.size() - 5) + " more";
   return text +
-         ": letters that the voice does not know are spoken by name or in another language; "
-         "take a voice of the language they are in (--lang)";
+         ": letters that the voice does not know are spoken by name or in another language; select "
+         "a voice for their language (--lang)";
 }
 
 void correct_ipa(RawSpeech& raw, const text::Utterance& utterance) {

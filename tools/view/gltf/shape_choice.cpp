@@ -157,10 +157,10 @@ std::vector<ChosenShape> choose_shapes(const std::vector<std::string>& names, Mo
   // Silence is what is left when nothing else is shown.
   std::erase_if(shapes, [](const ChosenShape& shape) { return shape.meaning.viseme == 0; });
   if (!unused.empty()) {
-    notes.push_back("shapes that are not needed beside the others: " + list_of(unused));
+    notes.push_back("shapes that are not needed besides the others: " + list_of(unused));
   }
   if (!unknown.empty()) {
-    notes.push_back("shapes whose names are not known, which stay at rest: " + list_of(unknown));
+    notes.push_back("shapes with unknown names, which stay at rest: " + list_of(unknown));
   }
   return shapes;
 }

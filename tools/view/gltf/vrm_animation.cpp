@@ -188,7 +188,8 @@ Result<VrmAnimation> vrm_animated(std::span<const std::uint8_t> bytes,
     if (moved.count(i) == 0) resting += (resting.empty() ? "" : ", ") + actor->rig.shapes[i].name;
   }
   if (!resting.empty()) {
-    out.notes.push_back("shapes that no expression shows alone, which stay at rest: " + resting);
+    out.notes.push_back("shapes without an expression of their own, which stay at rest: " +
+                        resting);
   }
   AnimationWriter writer(*nodes, *actor, std::move(bones), shown);
   std::set<std::string> taken;

@@ -65,7 +65,7 @@ Result<std::string> samples(const Sheet& sheet) {
   const std::string begin = "<h2>On the head</h2>\n";
   if (!dam::to_sequence((*sheet.pairs)[0].made))
     return begin +
-           "<p>The controls of this character are neither FAPs nor shapes of ARKit, so no head "
+           "<p>The controls of this character are neither FAPs nor ARKit shapes, so no head "
            "shows them here.</p>\n";
   std::string html = begin;
   for (const auto& [place, number] : plot::chosen_sentences(*sheet.evaluation)) {
@@ -112,7 +112,7 @@ Result<std::string> make_sheet(const Sheet& sheet) {
          "that does not move.</p>\n" +
          sounds(*sheet.evaluation, sheet.model) + "<h2>Controls</h2>\n" +
          controls(*sheet.evaluation) +
-         "<h2>Sentences that stand out</h2>\n<p>Often they have the labels of another one, or the "
+         "<h2>Outliers</h2>\n<p>Often they have the labels of another one, or the "
          "tracker slipped: look "
          "at them first.</p>\n" +
          sentences(*sheet.evaluation, *sheet.pairs) + "</html>\n";

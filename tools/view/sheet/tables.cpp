@@ -97,7 +97,7 @@ std::string sounds(const dam::Evaluation& evaluation, const dam::Model* model) {
             "</td>" + format("<td class=\"n\">%zu</td>", phone.phones);
     if (model != nullptr) {
       const std::uint32_t examples = examples_of(model, phone.name);
-      html += examples == 0      ? "<td class=\"rare\">none: spoken by a relative</td>"
+      html += examples == 0      ? "<td class=\"rare\">none: uses a similar phone</td>"
               : examples < kRare ? format("<td class=\"rare\">%u: record more</td>", examples)
                                  : format("<td class=\"n\">%u</td>", examples);
     }

@@ -68,7 +68,7 @@ Result<head::Source> read_gltf_head(const HeadChoice& choice) {
     const head::Source& source = file->source;
     if (source.shapes.empty() && source.points.empty() && !source.eyes[0]) {
       return make_error(Code::not_found,
-                        "there is no face in it: no morph target has a name that is known (ARKit, "
+                        "there is no face in it: no morph target has a known name (ARKit, "
                         "visemes, VRM), and nothing in it is an eye; with --points LIST a head is "
                         "made of its mesh")
           .in_file(choice.head);
@@ -151,7 +151,7 @@ std::string problem_of(const HeadChoice& choice) {
   }
   if (head::head_parameters(choice.head)) {
     if (choice.points.empty()) return "";
-    return "--points is for a head of your own; give its file with --head";
+    return "--points is for custom heads; give the file with --head";
   }
   if (!std::filesystem::exists(choice.head)) {
     return "--head is " + std::string(kOurs) + ", or a file; there is no file \"" + choice.head +
@@ -164,7 +164,8 @@ std::string problem_of(const HeadChoice& choice) {
            "--points";
   }
   if (format == Format::obj && choice.points.empty()) {
-    return "an .obj does not tell where its face is: add --points LIST, a text with lines such as "
+    return "an .obj does not define where its face is: add --points LIST, a text with lines such "
+           "as "
            "2.1,966 (feature point, vertex counted from 0)";
   }
   if ((format == Format::fdp || format == Format::xmt) && !choice.points.empty()) {
@@ -185,7 +186,7 @@ Result<LoadedHead> load_head(const HeadChoice& choice) {
       if (!gain && gain.error().code != Code::not_found) return gain.error().in_file(choice.head);
       loaded->head.mouth_gain = gain ? *gain : 1;
       loaded->notes.push_back(gain ? gain_note(*gain)
-                                   : "--gain auto: lips open as the clip says, since " +
+                                   : "--gain auto: lips open without gain, since " +
                                          gain.error().message);
     } else {
       loaded->head.mouth_gain = gain_of(choice.gain).value_or(1);

@@ -79,7 +79,7 @@ Result<void> measurable(const head::Head& head) {
   }
   if (!(head.fapu.es > 0)) {
     return make_error(Code::not_found,
-                      "the distance of the eyes is not known: give points 3.5 and 3.6 (pupils) by "
+                      "the eye distance is unknown: give points 3.5 and 3.6 (pupils) by "
                       "--points");
   }
   return {};

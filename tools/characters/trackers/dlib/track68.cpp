@@ -187,7 +187,7 @@ int main(int count, char** words) {
     if (!good) fail("ffmpeg: " + last);
     if (found == 0)
       fail("no face was found in any of " + std::to_string(rows.size()) + " pictures");
-    if (times.size() < rows.size()) fail("ffmpeg does not tell the times of all pictures");
+    if (times.size() < rows.size()) fail("ffmpeg does not report the times of all frames");
     write(arguments[1], times, rows);
     std::cerr << "track68: a face in " << found << " of " << rows.size() << " pictures\n";
   } catch (const std::exception& error) {

@@ -22,7 +22,7 @@ class Table {
   finish(times) {
     const faces = this.rows.filter((row) => row !== null).length;
     if (faces === 0) throw new Error(`no face was found in any of ${this.rows.length} pictures`);
-    if (times.length < this.rows.length) throw new Error('ffmpeg does not tell the times of all pictures');
+    if (times.length < this.rows.length) throw new Error('ffmpeg does not report the times of all frames');
     const empty = ','.repeat(this.columns.length);
     const part = this.file + '.part';
     const out = fs.openSync(part, 'w');

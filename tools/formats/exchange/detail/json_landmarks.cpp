@@ -240,7 +240,7 @@ void write_shapes(const std::vector<Frame>& frames, JsonTable& out) {
     }
   }
   out.table += "\n";
-  if (lost > 0) out.warnings.push_back("frames without a face, left out: " + std::to_string(lost));
+  if (lost > 0) out.warnings.push_back("frames without a face, skipped: " + std::to_string(lost));
 }
 
 // The frames of a value, or of one value a line.
@@ -253,8 +253,8 @@ Result<Json> parse(std::string_view text) {
     if (!one) {
       const bool first = lines.empty();
       return error_at_line(Code::syntax,
-                           first ? "this begins like JSON and is none; is it complete?"
-                                 : "this line is no JSON; was the file cut off?",
+                           first ? "this begins like JSON but is invalid; is it complete?"
+                                 : "this line is not JSON; was the file cut off?",
                            std::int64_t(line.number));
     }
     lines.push_back(std::move(*one));

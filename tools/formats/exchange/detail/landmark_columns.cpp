@@ -198,13 +198,12 @@ void take_layout(LandmarkColumns& columns, const std::map<int, Fields3>& points,
 
 Error no_points(const Row& header, std::size_t count) {
   if (count > 0) {
-    return error_at_line(
-        Code::not_found,
-        std::to_string(count) +
-            " numbered points are no layout that is known: 68 (iBUG, OpenFace, dlib), 468 or 478 "
-            "(MediaPipe) are, or parts of them with four feature points; --layout 68 or mediapipe "
-            "says whose they are",
-        std::int64_t(header.line()));
+    return error_at_line(Code::not_found,
+                         std::to_string(count) +
+                             " numbered points are not a known layout, which are 68 (iBUG, "
+                             "OpenFace, dlib), 468 or 478 (MediaPipe), or parts of them with four "
+                             "feature points; --layout 68 or mediapipe selects one",
+                         std::int64_t(header.line()));
   }
   return error_at_line(Code::not_found,
                        "no column is a coordinate of a landmark: names like x_0, y_0, "
@@ -285,7 +284,7 @@ Result<LandmarkColumns> read_landmark_header(const Row& header, const LandmarkTa
                          " numbered points are taken to be a part "
                          "of those of " +
                          (layout == fap::LandmarkLayout::ibug68 ? "iBUG (68)" : "MediaPipe") +
-                         "; --layout says otherwise");
+                         "; override it with --layout");
     }
     take_layout(columns, points, *layout);
     columns.depth = have_depth(points) && !options.flat;
@@ -297,7 +296,7 @@ Result<LandmarkColumns> read_landmark_header(const Row& header, const LandmarkTa
   if (columns.points.empty()) return no_points(header, points.size());
   if (auto ok = check_coordinates(header, columns); !ok) return ok.error();
   if (!unknown.empty()) {
-    warnings.push_back("columns that are no landmarks are left out: " + list_of_names(unknown));
+    warnings.push_back("columns that are not landmarks are ignored: " + list_of_names(unknown));
   }
   return columns;
 }

@@ -20,7 +20,7 @@ class Cells : public Row {
   Result<double> number(std::size_t field) const {
     if (text(field).empty()) return std::numeric_limits<double>::quiet_NaN();
     if (const auto value = Row::number(field)) return *value;
-    return wrong(field, "no number; correct it or leave it empty");
+    return wrong(field, "not a number; correct it or leave it empty");
   }
 
   Error wrong(std::size_t field, const std::string& which_is) const {
@@ -168,7 +168,7 @@ class Reader {
     if (columns_.time) {
       row.time = parse_time(cells.text(*columns_.time), cells.line());
       if (!row.time) {
-        return cells.wrong(*columns_.time, "no time; write seconds or hh:mm:ss:ff.fff");
+        return cells.wrong(*columns_.time, "not a time; write seconds or hh:mm:ss:ff.fff");
       }
     }
     if (columns_.frame) {

@@ -78,7 +78,7 @@ Result<std::string> long_to_wide(std::string_view text, const ColumnMap& points)
   const auto lines = dam::table_lines(text);
   const char separator = lines.empty() ? ',' : separator_of(lines[0].text);
   if (lines.size() < 2) {
-    return make_error(Code::truncated, "there is no row behind the header line");
+    return make_error(Code::truncated, "there is no row after the header line");
   }
   const Row header(lines[0], separator);
   const LongColumns columns = columns_of(header);
@@ -101,7 +101,7 @@ Result<std::string> long_to_wide(std::string_view text, const ColumnMap& points)
     if (frames.empty() || frames.back().keys != keys || (keys.empty() && again)) {
       frames.push_back({std::move(keys), {}});
     } else if (again) {
-      return row.wrong(*columns.point, "the point", "there twice in this frame; remove one");
+      return row.wrong(*columns.point, "the point", "duplicate in this frame; remove one");
     }
     std::array<std::string, 3>& place = frames.back().points[at->second];
     for (std::size_t axis = 0; axis < 3; ++axis) {

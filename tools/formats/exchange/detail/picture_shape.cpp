@@ -107,7 +107,7 @@ void warn_of_shares(const std::vector<Triangle>& faces, const PictureSize& given
   std::snprintf(
       text, sizeof text,
       "in a picture of %gx%g the face would be %.2f times as wide for its height as faces "
-      "are, in one of %g:%g %.2f times; is --size that of the video as it is shown?",
+      "are, in one of %g:%g %.2f times; is --size the displayed size of the video?",
       given.width, given.height, *ratio / kUsualFace, likely.width, likely.height,
       *proportion(faces, likely.width / likely.height) / kUsualFace);
   warnings.emplace_back(text);
@@ -120,7 +120,7 @@ void warn_of_pixels(const std::vector<Triangle>& faces, std::vector<std::string>
   std::snprintf(
       text, sizeof text,
       "the face is %.2f times as wide for its height as faces are: are x and y of one unit? "
-      "--pixel-aspect %.3g would make it usual (16:11 and the like are shapes of pixels)",
+      "--pixel-aspect %.3g would make it usual (typical pixel shapes are 16:11 and similar)",
       *ratio / kUsualFace, kUsualFace / *ratio);
   warnings.emplace_back(text);
 }
@@ -158,8 +158,8 @@ void to_square_pixels(std::vector<LandmarkRow>& rows, const LandmarkColumns& col
   if (!options.size) {
     char text[160];
     std::snprintf(text, sizeof text,
-                  "x and y are shares of the picture, which is taken to be %g:%g by the "
-                  "proportions of the face; --size WIDTHxHEIGHT says it",
+                  "x and y are fractions of the picture, which is assumed to be %g:%g by the "
+                  "proportions of the face; set it with --size WIDTHxHEIGHT",
                   size.width, size.height);
     warnings.emplace_back(text);
   } else {
@@ -182,8 +182,8 @@ bool has_depth_of_a_face(const std::vector<LandmarkRow>& rows, const LandmarkCol
   if (out >= kFlattestNose && out <= kLongestNose) return true;
   char text[320];
   std::snprintf(text, sizeof text,
-                "z has another unit than x and y: the tip of the nose stands out by %.3g times the "
-                "distance of the eyes' outer corners, where 0.5 is usual; depth is left out "
+                "z has another unit than x and y: the tip of the nose protrudes by %.3g times the "
+                "distance of the eyes' outer corners, where 0.5 is usual; depth is ignored "
                 "(--depth-scale %.4g would make it usual)",
                 out, out > 0 ? 0.5 / out : 1.0);
   warnings.emplace_back(text);

@@ -69,8 +69,8 @@ Error Row::wrong(std::size_t field, const std::string& name, const std::string& 
 }
 
 Error Row::named_twice(std::size_t field) const {
-  return error(field, "the column " + std::string(text(field)) +
-                          " is there twice; remove one or give it another name");
+  return error(
+      field, "the column " + std::string(text(field)) + " is there twice; remove one or rename it");
 }
 
 }  // namespace animeme::exchange

@@ -87,7 +87,7 @@ int tell_timecode_rate(const std::vector<RowTime>& times, std::optional<fap::Rat
   }
   if (rate) return timecode_rate(last, counted_rate(*rate) * std::max(1.0, timecode_step(times)));
   warnings.push_back(
-      "the recording is too short to tell how many timecode frames make a second: 60 are assumed; "
+      "the recording is too short to determine the timecode frames per second: 60 are assumed; "
       "give the frame rate");
   return timecode_rate(last, 60);
 }
@@ -150,16 +150,16 @@ fap::Rate snapped(double measured, double duration, bool timecode) {
 Result<fap::Rate> tell_rate(const std::vector<double>& seconds, bool timecode) {
   const std::vector<double> steps = steps_of(seconds);
   if (steps.empty()) {
-    return make_error(Code::invalid_argument,
-                      "rows at one time only do not tell the frame rate; give it");
+    return make_error(Code::invalid_argument, "all rows have the same time; give the frame rate");
   }
   const double step = median(steps);
   const double duration = seconds.back() - seconds.front();
   const double measured = duration > 0 ? measured_rate(seconds, step) : 1 / step;
   if (!(measured >= 1.0 / 16 && measured <= 255)) {
-    return make_error(Code::invalid_argument,
-                      "the times are " + std::to_string(step) +
-                          " s apart, which is no frame rate; correct them or give the rate");
+    return make_error(
+        Code::invalid_argument,
+        "the times are " + std::to_string(step) +
+            " s apart, which is not a valid frame rate; correct them or give the rate");
   }
   return snapped(measured, duration, timecode);
 }
@@ -199,7 +199,7 @@ std::optional<RowTime> parse_time(std::string_view field, std::size_t line) {
 Result<PlacedRows> place_rows(const std::vector<RowTime>& times, std::optional<fap::Rate> rate,
                               std::vector<std::string>& warnings) {
   if (rate && !rate->valid()) {
-    return make_error(Code::invalid_argument, "the frame rate that was given is none");
+    return make_error(Code::invalid_argument, "the given frame rate is invalid");
   }
   const bool timecode = times.front().frames.has_value();
   const int per_second = timecode ? tell_timecode_rate(times, rate, warnings) : 1;
@@ -238,7 +238,7 @@ Result<PlacedRows> place_rows(const std::vector<RowTime>& times, std::optional<f
   }
   if (merged > 0) {
     warnings.push_back(
-        "rows on the same frame as the next one, left out: " + std::to_string(merged) + " (at " +
+        "rows on the same frame as the next one, skipped: " + std::to_string(merged) + " (at " +
         fap::format_rate(placed.rate) + " frames a second)");
   }
   return placed;

@@ -27,7 +27,7 @@ const Functions& load() {
       stderr,
       "animeme: what reads and writes sound and video does not load: %s; if a library is "
       "missing, install FFmpeg (Debian: libavformat59 libswscale6); animeme_ffmpeg.so itself "
-      "belongs beside the program, or into " ANIMEME_MODULE_FOLDER " from there\n",
+      "belongs next to the program, or into " ANIMEME_MODULE_FOLDER " from there\n",
       problem.c_str());
   std::_Exit(int(tools::kInternal));
 }

@@ -6,7 +6,7 @@ namespace {
 Error no_such_scheme(const std::string& url) {
   return make_error(Code::invalid_argument,
                     "'" + url +
-                        "' is no live address; write rtp://host:port, udp://host:port or "
+                        "' is not a live address; write rtp://host:port, udp://host:port or "
                         "srt://host:port, or name a .sdp file to receive what it describes");
 }
 

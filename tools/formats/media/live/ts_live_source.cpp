@@ -39,7 +39,7 @@ class TsSource : public LiveSource {
         input_.push(datagram->bytes, datagram->from, seconds_now(), events_);
         if (connection_ && !input_.found() && bytes_ > kEnoughToTell) {
           return make_error(Code::syntax,
-                            "what comes in is no transport stream with a face or sound");
+                            "the received data is not a transport stream with a face or sound");
         }
       }
       Result<LiveEvent> event(std::move(events_.front()));

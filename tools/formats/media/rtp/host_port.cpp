@@ -7,7 +7,7 @@ namespace animeme::media {
 Result<HostPort> read_host_port(const std::string& url, int standard_port) {
   const auto bad = [&url] {
     return make_error(Code::invalid_argument,
-                      "'" + url + "' is no address of the form scheme://host:port");
+                      "'" + url + "' is not an address of the form scheme://host:port");
   };
   const std::size_t begin = url.find("://");
   if (begin == std::string::npos) return bad();

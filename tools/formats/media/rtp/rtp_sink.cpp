@@ -96,7 +96,7 @@ Result<std::unique_ptr<LiveSink>> make_rtp_sink(const std::string& url, const Rt
     return make_error(Code::invalid_argument, "'" + url + "' does not say where to send to");
   }
   if (where->port == 0 || where->port % 2 != 0 || where->port > 65535 - kPortsBehind) {
-    return make_error(Code::invalid_argument, "RTP wants an even port from 2 to 65532");
+    return make_error(Code::invalid_argument, "RTP needs an even port from 2 to 65532");
   }
   // Without a presentation yet: the options alone.
   LiveInfo any;

@@ -98,7 +98,7 @@ Result<Description> describe_address(const std::string& url) {
   const Result<HostPort> where = read_host_port(url, kRtpPort);
   if (!where) return where.error();
   if (where->port == 0 || where->port > 65534) {
-    return make_error(Code::invalid_argument, "RTP wants a port from 1 to 65534");
+    return make_error(Code::invalid_argument, "RTP needs a port from 1 to 65534");
   }
   Description description;
   RtpFaceTrack& face = description.session.face.emplace();

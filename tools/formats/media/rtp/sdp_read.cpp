@@ -208,7 +208,8 @@ Result<RtpSession> read_sdp(std::string_view text) {
     if (auto ok = reader.line(take_until(text, '\n'), number); !ok) return ok.error();
   }
   if (!reader.is_description()) {
-    return make_error(Code::syntax, "this is no session description: it lacks v=0 or an m= line");
+    return make_error(Code::syntax,
+                      "this is not a session description: it lacks v=0 or an m= line");
   }
   RtpSession session;
   session.name = reader.name;

@@ -201,8 +201,7 @@ Result<UdpSocket> UdpSocket::bind(const std::string& host, int port, const Multi
   // Several programs on one machine may listen to a group.
   if (address->is_multicast()) set(*handle, SOL_SOCKET, SO_REUSEADDR, 1);
   if (::bind(*handle, raw(address->bytes_), address->size_) != 0) {
-    return failed("port " + std::to_string(port) + " of " + address->host() +
-                  " cannot be listened to");
+    return failed("port " + std::to_string(port) + " of " + address->host() + " cannot be bound");
   }
   if (address->is_multicast()) {
     if (auto ok = join_group(*handle, *address, address->bytes_, multicast); !ok) return ok.error();

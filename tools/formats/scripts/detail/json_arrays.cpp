@@ -52,8 +52,10 @@ Result<std::vector<TimedLabel>> read_lists(const Lists& lists, const Node& node,
   for (std::size_t i = 0; i < labels.size(); ++i) {
     const Node label = labels.at(i);
     const auto start = starts.at(i).number(), other = others.at(i).number();
-    if (!start || !other) return out.error(Code::syntax, "a time that is no number", starts.at(i));
-    if (!label.value->is_string()) return out.error(Code::syntax, "a label that is no text", label);
+    if (!start || !other)
+      return out.error(Code::syntax, "a time that is not a number", starts.at(i));
+    if (!label.value->is_string())
+      return out.error(Code::syntax, "a label that is not text", label);
     const double from = *start / usual_rate;
     const double to = by_end ? *other / usual_rate : from + *other / usual_rate;
     out.paths.push_back(label.path);
@@ -101,7 +103,7 @@ Result<void> add_phones(const Node& node, std::vector<TimedLabel>& words, JsonLa
     const auto index = details.at(i).member({"wordindex"}).number();
     const Node list = details.at(i).member({"phones"});
     if (!index || *index < 0 || *index >= double(words.size())) {
-      return out.error(Code::syntax, "wordIndex names no word", details.at(i));
+      return out.error(Code::syntax, "wordIndex does not refer to a word", details.at(i));
     }
     for (std::size_t k = 0; k < list.size(); ++k) {
       const Node phone = list.at(k);

@@ -43,7 +43,7 @@ Result<WebAddress> parse_web_address(const std::string& url, bool with_path) {
   if (path != std::string::npos && path + 1 != place.size()) {
     address.path = place.substr(path);
     if (!with_path) return bad("the address has a path");
-    if (!is_plain_path(address.path)) return bad("the path has a character that is none of ours");
+    if (!is_plain_path(address.path)) return bad("the path has an invalid character");
     while (address.path.ends_with('/')) address.path.pop_back();
   }
   place = place.substr(0, path);
@@ -59,11 +59,11 @@ Result<WebAddress> parse_web_address(const std::string& url, bool with_path) {
   for (const char c : address.host) {
     const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
                        c == '.' || c == '-' || c == ':';
-    if (!plain) return bad("the host has a character that no host has");
+    if (!plain) return bad("the host has an invalid character");
   }
   if (!has_port) return address;
   const auto port = media::to_number(place.substr(colon + 1), 65535);
-  if (!port) return bad("the port is no number up to 65535");
+  if (!port) return bad("the port is not a number up to 65535");
   address.port = int(*port);
   return address;
 }

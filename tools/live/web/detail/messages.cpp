@@ -51,7 +51,7 @@ std::vector<std::uint8_t> write_unit(const UnitMessage& unit) {
 
 Result<UnitMessage> read_unit(std::span<const std::uint8_t> message) {
   if (message.size() <= kUnitHeader || message[0] >= 0x40) {
-    return make_error(Code::syntax, "a message of the server is no access unit");
+    return make_error(Code::syntax, "a message of the server is not an access unit");
   }
   return UnitMessage{media::read_big_endian(message, 0, 8),
                      std::uint32_t(media::read_big_endian(message, 8, 4)),

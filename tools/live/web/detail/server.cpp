@@ -111,7 +111,7 @@ Result<std::unique_ptr<Server>> Server::listen(const WebAddress& address,
   if (server->port_ <= 0) {
     return make_error(Code::io,
                       "cannot listen at " + address.text() +
-                          "; is the port in use, or the host no address of this machine?");
+                          "; is the port in use, or is the host not an address of this machine?");
   }
   server->answers_->service = &server->service_;
   server->keep_looking();

@@ -78,7 +78,7 @@ GstPeer::GstPeer(const PeerSettings& settings, Described described)
   } else {
     const SdpPtr sdp = parse(settings_.offer);
     if (!sdp || gst_sdp_message_medias_len(sdp.get()) == 0) {
-      fail("the offer is no session description");
+      fail("the offer is not a session description");
       return;
     }
     const int payload_type = settings_.sound ? payload_type_of(sdp.get()) : -1;
@@ -210,7 +210,7 @@ void GstPeer::add_sound(int payload_type) {
   gst_bin_add(GST_BIN(pipeline_.get()), sound_);
   if (!gst_element_link(sound_, bin_)) {
     gst_caps_unref(caps);
-    return fail("webrtcbin takes no sound");
+    return fail("webrtcbin does not accept sound");
   }
   GArray* all = nullptr;
   g_signal_emit_by_name(bin_, "get-transceivers", &all);
@@ -312,7 +312,7 @@ Peer::State GstPeer::state() {
   gst_object_unref(bus);
   const Clock::rep since = waiting_since_;
   if (since != 0 && Clock::now() - Clock::time_point(Clock::duration(since)) > kPatience) {
-    fail("nothing was heard of the other end");
+    fail("the other end does not respond");
   }
   GstWebRTCPeerConnectionState state{};
   g_object_get(bin_, "connection-state", &state, nullptr);

@@ -44,7 +44,7 @@ std::string begin() {
                       [&](const std::string&, const std::string& why) { problem.set_value(why); });
   std::future<std::string> known = problem.get_future();
   const bool told = known.wait_for(kFirst) == std::future_status::ready;
-  return told ? known.get() : "GStreamer's webrtcbin makes no offer";
+  return told ? known.get() : "GStreamer's webrtcbin does not create an offer";
 }
 
 std::unique_ptr<Peer> open(const PeerSettings& settings, Described described) {

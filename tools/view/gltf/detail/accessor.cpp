@@ -105,7 +105,7 @@ Result<Block> block_of(const File& file, std::size_t accessor, const Json& where
   if (stride < element || stride > 1000) return bad(accessor, "has a stride that cannot be");
   if (count > 0 && (offset > bytes->size() || bytes->size() - offset < element ||
                     (bytes->size() - offset - element) / stride < count - 1)) {
-    return bad(accessor, "does not lie in its buffer view");
+    return bad(accessor, "is outside its buffer view");
   }
   return Block{count > 0 ? bytes->subspan(offset) : bytes->first(0), stride, type};
 }
@@ -200,7 +200,7 @@ Result<std::vector<std::uint32_t>> read_wholes(const File& file, std::size_t acc
                                                std::size_t components, std::size_t most) {
   auto layout = layout_of(file, accessor, components);
   if (!layout) return layout.error();
-  if (layout->type == Component::float32) return bad(accessor, "has to hold whole numbers");
+  if (layout->type == Component::float32) return bad(accessor, "must have integers");
   std::vector<std::uint32_t> values(std::min(layout->count, most) * components);
   bool fine = true;
   auto done =

@@ -37,7 +37,7 @@ Budget::Budget(const ReadLimits& limits)
       elements_(limits.vertices * kElementsOfVertex) {}
 
 Result<void> Budget::take_bytes(std::size_t count) {
-  return take_from(left_.bytes, count, limits_.bytes, "bytes in the files beside it",
+  return take_from(left_.bytes, count, limits_.bytes, "bytes in its referenced files",
                    "leave out what is not the head");
 }
 

@@ -46,7 +46,7 @@ Result<Chunks> chunks_of_glb(std::span<const std::uint8_t> bytes) {
     if (is_first != (type == kJsonChunk)) {
       return make_error(Code::syntax, "the part of the .glb file at byte " +
                                           std::to_string(at + 1) +
-                                          " is none that belongs there, the first has to be its "
+                                          " has a wrong type, the first must be its "
                                           "JSON: export it again");
     }
     at += kChunkHeader;

@@ -120,7 +120,7 @@ Result<std::span<const std::uint8_t>> view_of(const File& file, std::size_t view
       *size > file.buffers[buffer].size() - offset) {
     if (is_compressed(entry)) return compressed_error("EXT_meshopt_compression");
     return make_error(Code::syntax, "buffer view " + std::to_string(view) +
-                                        " does not lie in its buffer: export the file again");
+                                        " is outside its buffer: export the file again");
   }
   return file.buffers[buffer].subspan(offset, *size);
 }

@@ -75,7 +75,7 @@ void FileMotion::add_bone(std::size_t node, Bone bone, double share,
   const auto place = local_place(edit_.file().entry("nodes", node));
   if (!place) {
     notes.push_back("\"" + nodes_[node].name +
-                    "\" does not turn: its matrix shears, which no animation can show");
+                    "\" cannot be rotated: its matrix has shear, which animations do not support");
     return;
   }
   if (place->of_matrix) {

@@ -40,7 +40,7 @@ class OpenFile {
     }
     if (S_ISDIR(status_.st_mode)) return make_error(Code::not_found, path_ + " is a folder");
     if (pipes || S_ISREG(status_.st_mode)) return std::nullopt;
-    return make_error(Code::io, path_ + " is no ordinary file");
+    return make_error(Code::io, path_ + " is not a regular file");
   }
 
   bool has_size() const { return S_ISREG(status_.st_mode); }
@@ -107,11 +107,11 @@ LoadFile files_of(std::string folder, std::size_t most) {
   return [folder = std::move(folder), most](const std::string& uri) -> Result<Bytes> {
     if (uri.find("://") != std::string::npos) {
       return make_error(Code::unsupported,
-                        "files of the web are not loaded: save " + uri + " beside the head");
+                        "files from the web are not loaded: save " + uri + " next to the head");
     }
     const auto outside = [&] {
       return make_error(Code::unsupported, "\"" + uri +
-                                               "\" lies outside of the folder of the head: "
+                                               "\" is outside the folder of the head: "
                                                "move it there");
     };
     const fs::path path = fs::path(uri).lexically_normal();

@@ -194,7 +194,7 @@ Result<void> MeshReader::add_attributes(const Json& attributes, const Place& pla
     const Affine& map = maps[std::min(v, maps.size() - 1)];
     piece.positions.push_back(Vec3(map.place({double(p[0]), double(p[1]), double(p[2])})));
     if (!is_finite(piece.positions.back())) {
-      return make_error(Code::syntax, "a vertex lies beyond all numbers: export the file again");
+      return make_error(Code::syntax, "a vertex position is not finite: export the file again");
     }
   }
   const std::string uv_set = "TEXCOORD_" + std::to_string(piece.paint->uv_set);

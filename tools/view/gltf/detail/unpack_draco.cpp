@@ -220,7 +220,7 @@ Result<void> unpack_draco(File& file) {
       try {
         if (auto done = Unpacking(file).run(primitive); !done) return done;
       } catch (const std::bad_alloc&) {
-        return draco_error("takes more memory than there is", Code::out_of_range);
+        return draco_error("needs more memory than available", Code::out_of_range);
       }
       primitive["extensions"].erase(kExtension);
     }

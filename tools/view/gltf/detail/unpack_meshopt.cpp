@@ -34,7 +34,7 @@ Result<Packed> packed_of(const File& file, const Json& extension, std::size_t vi
     return meshopt_error(view, "lacks byteLength, count or byteStride");
   if (buffer >= file.buffers.size() || offset > file.buffers[buffer].size() ||
       *length > file.buffers[buffer].size() - offset) {
-    return meshopt_error(view, "does not lie in its buffer", Code::truncated);
+    return meshopt_error(view, "is outside its buffer", Code::truncated);
   }
   packed.bytes = file.buffers[buffer].subspan(offset, *length);
   packed.count = *count;

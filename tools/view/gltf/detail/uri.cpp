@@ -40,7 +40,7 @@ Result<std::vector<std::uint8_t>> resolve(std::string_view uri, const LoadFile& 
   const std::string path = percent_decoded(uri);
   if (!load) {
     return make_error(Code::not_found,
-                      "the file needs " + path + " beside it: read it by its path, or use a .glb");
+                      "the file needs " + path + " next to it: read it by its path, or use a .glb");
   }
   return load(path);
 }

@@ -48,7 +48,7 @@ Result<NetAddress> parse_net_address(const std::string& url, bool for_reading) {
   address.host = place.substr(0, colon);
   if (address.host == "@") address.host.clear();
   address.port = int(to_number(place.substr(colon + 1), 65535).value_or(0));
-  if (address.port < 1) return bad_address("the port is no number from 1 to 65535");
+  if (address.port < 1) return bad_address("the port is not a number from 1 to 65535");
   const std::string mode = address.option("mode");
   if (address.scheme == "srt" && !mode.empty() && mode != "caller" && mode != "listener") {
     return bad_address("the mode is neither caller nor listener");

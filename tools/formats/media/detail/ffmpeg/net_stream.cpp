@@ -56,8 +56,8 @@ Result<void> NetThread::open(int flags, int datagram_bytes) {
   if (const std::size_t at = why.find(url); at != std::string::npos) {
     why.replace(at, url.size(), address_.text());  // no passphrase in messages
   }
-  if (udp && reading) why += "; is the port in use, or the host no address of this machine?";
-  if (!udp && !address_.listener) why += "; is somebody listening there (mode=listener)?";
+  if (udp && reading) why += "; is the port in use, or is the host not an address of this machine?";
+  if (!udp && !address_.listener) why += "; is a program listening there (mode=listener)?";
   if (address_.listener) why += "; is the port in use?";
   return make_error(Code::io, address_.text() + " cannot be opened: " + why);
 }
@@ -125,9 +125,9 @@ Result<void> NetReader::bind() {
   }
   Result<UdpSocket> socket = UdpSocket::bind(at, address_.port, multicast);
   if (!socket) {
-    return make_error(Code::io, address_.text() + " cannot be opened: " + socket.error().message +
-                                    "; is the port in use, or the host no address of this "
-                                    "machine?");
+    return make_error(Code::io,
+                      address_.text() + " cannot be opened: " + socket.error().message +
+                          "; is the port in use, or is the host not an address of this machine?");
   }
   socket_.emplace(std::move(*socket));
   return {};

@@ -42,7 +42,7 @@ class Room {
     const auto [end, ignored] = std::mismatch(root_.begin(), root_.end(), path.begin(), path.end());
     if (end != root_.end() || !fs::is_regular_file(path, status)) {
       return make_error(Code::unsupported, "\"" + name.string() +
-                                               "\" is no ordinary file in the folder of the "
+                                               "\" is not a regular file in the folder of the "
                                                "playlist");
     }
     const std::uintmax_t size = fs::file_size(path, status);
@@ -194,7 +194,7 @@ std::string to_reference(const std::string& name) {
 Result<std::string> from_reference(const std::string& reference) {
   const auto outside = [&] {
     return make_error(Code::unsupported,
-                      "\"" + reference + "\" does not lie in the folder of the playlist");
+                      "\"" + reference + "\" is not in the folder of the playlist");
   };
   if (reference.find_first_of(":?#\\") != std::string::npos) return outside();
   std::string out;
@@ -205,7 +205,7 @@ Result<std::string> from_reference(const std::string& reference) {
     }
     const auto code = from_hex(std::string_view(reference).substr(i + 1, 2));
     if (!code || code->empty() || code->front() == 0) {
-      return make_error(Code::syntax, "\"" + reference + "\" is no name that can be read");
+      return make_error(Code::syntax, "\"" + reference + "\" is not a readable name");
     }
     out += char(code->front());
     i += 2;

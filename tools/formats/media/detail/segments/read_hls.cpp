@@ -73,7 +73,8 @@ Result<void> HlsReader::take_tag(std::string_view line) {
     }
     out_.rendition.init = *uri;
   } else if (line.starts_with("#EXT-X-BYTERANGE")) {
-    return wrong(Code::unsupported, "byte ranges are not read; give segments files of their own");
+    return wrong(Code::unsupported,
+                 "byte ranges are not supported; put each segment in its own file");
   } else if (skip_prefix(line, "#EXT-X-KEY:")) {
     if (attribute(line, "METHOD") != "NONE") {
       return wrong(Code::unsupported, "encrypted segments are not read");

@@ -80,7 +80,7 @@ Result<void> check_input(const MuxInput& input, const MuxOptions& options) {
     return invalid("nothing to write: neither a face nor sound nor pictures were given");
   }
   if (sounds > 1) {
-    return invalid("the sound was given twice, as samples, coded, or as a file");
+    return invalid("the sound was given more than once, as samples, coded, or as a file");
   }
   if (input.face != nullptr) {
     if (auto legal = check_face(*input.face); !legal) return legal;

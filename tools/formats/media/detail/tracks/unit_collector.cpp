@@ -116,7 +116,7 @@ Result<void> UnitCollector::finish(std::int64_t shift, Container& result) {
     result.warnings.push_back(std::to_string(late_) + " planes have time stamps out of order");
   }
   if (units_.empty()) {
-    return make_error(Code::syntax, "the face track has no intra plane that can be read");
+    return make_error(Code::syntax, "the face track has no readable intra plane");
   }
   set_durations();
   for (fba::AccessUnit& unit : units_) {

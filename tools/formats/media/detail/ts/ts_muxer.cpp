@@ -112,7 +112,7 @@ TsMuxer::~TsMuxer() {
 Result<std::vector<std::uint8_t>> TsMuxer::write(const LiveUnit& unit) {
   const auto track = std::size_t(unit.track);
   if (streams_[track] == nullptr) {
-    return make_error(Code::invalid_argument, "a unit of a track that start() was not told of");
+    return make_error(Code::invalid_argument, "a unit of a track that was not passed to start()");
   }
   const bool face = unit.track == LiveTrack::face;
   const AVRational base{1, face ? int(info_.timescale) : info_.audio->sample_rate};
@@ -120,7 +120,7 @@ Result<std::vector<std::uint8_t>> TsMuxer::write(const LiveUnit& unit) {
       av_rescale_q(unit.time, base, kStampBase) + kTsTimeZero - kAddedByMuxer;
   if (stamp < 0 || stamp <= last_[track]) {
     return make_error(Code::invalid_argument, stamp < 0
-                                                  ? "a unit lies too early: times begin at -0.8 s"
+                                                  ? "a unit is too early: times begin at -0.8 s"
                                                   : "the times of a track must ascend");
   }
   const std::vector<std::uint8_t> none;
