@@ -198,19 +198,19 @@ TEST(BatchTrouble, WhatIsWrongWithARowIsAnErrorOfThisRow) {
     const char *fields, *message;  // text, input, lang, options, outputs
   } rows[] = {
       {"\t\t\t\t.fba", "nothing to say"},
-      {"A\tb.fba\t\t\t.fba", "an input and something to say"},
-      {"A\t\t\t\t", "wants no outputs"},
+      {"A\tb.fba\t\t\t.fba", "both an input and speech"},
+      {"A\t\t\t\t", "has no outputs"},
       {"A\t\t\t\t/", "is no ending"},
       {"A\t\t\t\t.fba/x", "is no ending"},
-      {"A\t\t\t\t.zip", "nobody makes"},
-      {"A\t\t\t\tdance:.fba", "nobody makes"},
+      {"A\t\t\t\t.zip", "no command makes"},
+      {"A\t\t\t\tdance:.fba", "no command makes"},
       {"A\t\t\t\t\".fba", "not closed"},
       {"A\t\t\t-o x.fba\t.fba", "column options has -o"},
       {"A\t\t\t--json\t.fba", "column options has --json"},
       {"A\t\t\t--nonsense\t.fba", "speak: "},
       {"A\t\tqqq\t\t.fba", "qqq"},
       {"\tnone.fba\t\t\t.fap", "none.fba"},
-      {"\tm.tsv\t\t\tspeak:.fba", "wants something to say"},
+      {"\tm.tsv\t\t\tspeak:.fba", "needs speech"},
   };
   std::string table = "id\ttext\tinput\tlang\toptions\toutputs\n";
   for (std::size_t i = 0; i < std::size(rows); ++i)

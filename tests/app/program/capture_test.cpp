@@ -118,7 +118,7 @@ TEST(Captures, WhereSeveralGo) {
   EXPECT_THAT(one_file.err, HasSubstr("is one file for 2 inputs; name a folder"));
   const auto part_of_which = run({"-o", dir / "out/", "--neutral", "0"});
   EXPECT_EQ(part_of_which.exit_code, 3);
-  EXPECT_THAT(part_of_which.err, HasSubstr("--neutral-from says of which"));
+  EXPECT_THAT(part_of_which.err, HasSubstr("select one with --neutral-from"));
   const auto twice = animeme({"import", dir / "a.csv", dir / "a.csv", "-o", dir / "out/"});
   EXPECT_EQ(twice.exit_code, 2);
   EXPECT_THAT(twice.err, HasSubstr("two inputs would be written to"));
@@ -161,7 +161,7 @@ TEST(Captures, NamesOfOthersByAMap) {
   const auto wrong =
       animeme({"import", dir / "take.csv", "--column", "mouth=jawOpn", "-o", dir / "c.fap"});
   EXPECT_EQ(wrong.exit_code, 2);
-  EXPECT_THAT(wrong.err, HasSubstr("--column mouth=jawOpn: 'jawOpn' is nothing a column can be"));
+  EXPECT_THAT(wrong.err, HasSubstr("--column mouth=jawOpn: 'jawOpn' is not a known meaning"));
 }
 
 TEST(Captures, AVideoWantsATracker) {
@@ -202,7 +202,7 @@ TEST(Captures, TrackersThatFail) {
       {"true {out}", 2, "has {out} and no {in}"},
       {tracker(dir, "echo no camera >&2; exit 7\n"), 3, "exit code 7; it said: no camera"},
       {"true {in} {out}", 3, "the tracker wrote no table"},
-      {"echo {in}", 3, "no table: its first line is one field"},
+      {"echo {in}", 3, "not a table: its first line is one field"},
       {"sleep 30 {in}", 3, "exit code 1"},
   };
   for (const auto& one : cases) {

@@ -158,7 +158,7 @@ TEST(CarriedWordsOfOthers, DoNoHarm) {
       << "with a warning";
   const auto view = animeme({"view", dir / "b.mkv", "-o", dir / "b.html"});
   EXPECT_EQ(view.exit_code, 0) << view.err;
-  EXPECT_THAT(view.err, HasSubstr("its words are left out"));
+  EXPECT_THAT(view.err, HasSubstr("its words are ignored"));
   EXPECT_THAT(view.err, Not(HasSubstr("\x1B")));
   // Words alone get their phones by pronunciation; subtitles of another name are nobody's words.
   spill(dir / "words.srt", "1\n00:00:00,200 --> 00:00:00,800\nmoon\n\n");

@@ -96,7 +96,7 @@ TEST(Check, ThisCodecIsRightInAllCases) {
   ASSERT_GE(cases, 200);
   const std::string n = std::to_string(cases), p = std::to_string(parameters);
   EXPECT_THAT(result.out, EndsWith(n + " of " + n + " cases right (" + n + " exact); " + p +
-                                   " of " + p + " streams written again byte for byte\n"));
+                                   " of " + p + " streams re-encoded byte for byte\n"));
   EXPECT_THAT(result.out, HasSubstr("mask type of each face group"));
 }
 
@@ -364,12 +364,12 @@ TEST(Check, BadPlacesAndUsage) {
 
   EXPECT_EQ(check({kCases, "--filter", "no such thing"}).exit_code, 2);
   EXPECT_EQ(check({kCases, "--timeout", "0"}).exit_code, 2);
-  for (const auto& [command, word] :
-       std::map<std::string, std::string>{{"cp", "{in}"},
-                                          {"/no/such/program {in} {out}", "no program"},
-                                          {"no-such-program-anywhere {in}", "no program"},
-                                          {"cp '{in} {out}", "not closed"},
-                                          {"  ", "names no program"}}) {
+  for (const auto& [command, word] : std::map<std::string, std::string>{
+           {"cp", "{in}"},
+           {"/no/such/program {in} {out}", "cannot find an executable program"},
+           {"no-such-program-anywhere {in}", "cannot find an executable program"},
+           {"cp '{in} {out}", "not closed"},
+           {"  ", "names no program"}}) {
     const auto result = check({kCases, "--decoder", command});
     EXPECT_EQ(result.exit_code, 2) << command;
     EXPECT_THAT(result.err, HasSubstr(word)) << command;

@@ -122,7 +122,7 @@ TEST_F(Evaluate, WhatIsLeftWithGainAndOffset) {
   EXPECT_LT(after, all["mean_nrmse"].get<double>());
   EXPECT_GT(after, 0.3);
   EXPECT_GT(all["controls"][0]["gain"].get<double>(), 0.5);
-  EXPECT_THAT(run({a(), corpus(), "--split", "test"}).out, HasSubstr("gain and offset"));
+  EXPECT_THAT(run({a(), corpus(), "--split", "test"}).out, HasSubstr("gain/offset fit"));
 }
 
 TEST_F(Evaluate, TwoModels) {

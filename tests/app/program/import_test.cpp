@@ -106,7 +106,7 @@ TEST(Import, RowsWithoutAFaceBecomeSkippedFrames) {
   EXPECT_EQ(take.clip.frames[9].number, 9);
   EXPECT_EQ(take.clip.frames[10].number, 13);
   EXPECT_THAT(take.talk,
-              AllOf(HasSubstr("without a face, left out: 2\n"), HasSubstr("3 frames skipped")));
+              AllOf(HasSubstr("without a face, skipped: 2\n"), HasSubstr("3 frames skipped")));
 }
 
 // Seconds at `rate` with a little jitter; a cosine in one channel.
@@ -145,7 +145,7 @@ TEST(Import, GapsAndCrowdsBecomeFrameNumbers) {
   EXPECT_EQ(take.clip.rate, (fap::Rate{25, 1}));
   EXPECT_THAT(numbers(take.clip), ElementsAre(0, 1, 2, 6, 7, 8));
   EXPECT_EQ(take.clip.frames[4].value[3], 680);  // the last of the two rows
-  EXPECT_THAT(take.talk, HasSubstr("same frame as the next one, left out: 1 (at 25"));
+  EXPECT_THAT(take.talk, HasSubstr("same frame as the next one, skipped: 1 (at 25"));
 }
 
 TEST(Import, ALowerRateThinsOut) {

@@ -117,7 +117,7 @@ TEST(ListenCommands, SilenceIsAStillFace) {
   spill(dir / "still.wav", wav(std::string(64000, '\0'), 8000, 2));
   const auto out = animeme({"speak", "--audio", dir / "still.wav", "-o", dir / "still.fap"});
   EXPECT_EQ(out.exit_code, 0);
-  EXPECT_THAT(out.err, HasSubstr("nothing was heard"));
+  EXPECT_THAT(out.err, HasSubstr("no speech was recognised"));
 }
 
 TEST(ListenCommands, BadSoundsAreRefused) {

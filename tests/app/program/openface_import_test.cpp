@@ -26,8 +26,8 @@ TEST(ImportOpenFace, PointsInSpace) {
   expect_faps(take.clip, {3, 4, 5, 12, 13, 14, 19, 20, 31, 32, 48, 49, 50, 53, 60, 63}, 1);
   EXPECT_FALSE(take.clip.frames[0].mask[18]);
   EXPECT_THAT(take.talk, AllOf(HasSubstr("points in space"), HasSubstr("given in 1 frame, 0"),
-                               HasSubstr("was not sure of the face, left out: 1"),
-                               HasSubstr("1 frames skipped"), Not(HasSubstr("no landmarks"))));
+                               HasSubstr("rows with low confidence, skipped: 1"),
+                               HasSubstr("1 frames skipped"), Not(HasSubstr("not landmarks"))));
 }
 
 TEST(ImportOpenFace, RoundsToTenthsOfAMillimetre) {

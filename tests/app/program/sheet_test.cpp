@@ -42,7 +42,7 @@ TEST(Sheet, HasEverythingAndLoadsNothing) {
   EXPECT_EQ(count(html, "<iframe "), 3u);
   EXPECT_EQ(count(html, "<svg"), 1u) << "curves";
   for (const char* part :
-       {"P, B, M closed", "On the head", "Sounds", "Controls", "fap3_open_jaw", "stand out"})
+       {"P, B, M closed", "On the head", "Phones", "Controls", "fap3_open_jaw", "Outliers"})
     EXPECT_THAT(html, HasSubstr(part));
   EXPECT_EQ(count(html, "<script"), 0u) << "but in frames, escaped";
   EXPECT_EQ(count(html, "src=\"http") + count(html, "href=\"http") + count(html, "=&quot;http"),
@@ -70,7 +70,7 @@ TEST(Sheet, CharactersWithoutAFaceAndOneSentence) {
   succeeds({"train", corpus.string(), "-o", dir / "snout.dam"});
   succeeds({"evaluate", dir / "snout.dam", corpus.string(), "--report", dir / "snout.html"});
   const std::string html = slurp(dir / "snout.html");
-  EXPECT_THAT(html, HasSubstr("neither FAPs nor shapes of ARKit"));
+  EXPECT_THAT(html, HasSubstr("neither FAPs nor ARKit shapes"));
   EXPECT_EQ(count(html, "<iframe"), 0u);
   EXPECT_THAT(html, HasSubstr("1: record more")) << "one AA in training";
   const auto wrong =

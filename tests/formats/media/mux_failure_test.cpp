@@ -161,9 +161,9 @@ TEST_F(MuxFailure, CodecsThatAFormatDoesNotTake) {
   refused("a.m4a", {.audio = &sound_}, opus, "takes no opus");
   refused("a.opus", {.audio = &sound_}, {}, "takes no aac; code the sound as opus");
   refused("a.webm", {.audio = &sound_}, {}, "takes no aac");
-  refused("a.webm", input_, opus, "holds sound only");
+  refused("a.webm", input_, opus, "can only contain sound");
   refused("a.ts", {.face = &face_, .encoded = &*coded}, {}, "takes no opus");
-  refused("a.mp4", {.face = &face_, .encoded = &*coded}, {.systems = true}, "takes AAC");
+  refused("a.mp4", {.face = &face_, .encoded = &*coded}, {.systems = true}, "needs AAC");
   refused("a.mkv", input_, {.fragmented = true}, "only an mp4");
   refused("a.mkv", input_, {.shared_seconds = 0.4}, ".ts files only");
   refused("a.mp4", input_, {.fragmented = true, .systems = true}, "cannot be fragmented");
@@ -174,7 +174,7 @@ TEST_F(MuxFailure, SoundGivenTwiceAndFragmentsOfNoLength) {
   const auto coded = encode_audio(sound_);
   ASSERT_TRUE(coded);
   input_.encoded = &*coded;
-  expect_refused(Code::invalid_argument, "given twice");
+  expect_refused(Code::invalid_argument, "given more than once");
   input_.encoded = nullptr;
   for (const double seconds : {0.0, -1.0, 1e9, double(NAN)}) {
     const auto written = write_container(dir_.file("a.mp4"), input_, {.fragment_seconds = seconds});

@@ -178,7 +178,7 @@ TEST(ReadContainer, NoIntraPlaneIsAnError) {
   const Result<Container> back = read_container(dir.file("a.mp4"));
   ASSERT_FALSE(back);
   EXPECT_EQ(back.error().code, Code::syntax);
-  EXPECT_THAT(back.error().message, testing::HasSubstr("no intra plane"));
+  EXPECT_THAT(back.error().message, testing::HasSubstr("no readable intra plane"));
 }
 
 TEST(ReadContainer, MatroskaAndTransportStreamOfOurOwn) {

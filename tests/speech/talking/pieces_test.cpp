@@ -146,7 +146,7 @@ TEST(Piece, SaysWhatIsWrong) {
   EXPECT_THAT(said(Json({{"audio", audio}, {"encoding", "pcm"}, {"script", kScript}}).dump()),
               HasSubstr("sample_rate"));
   EXPECT_THAT(said(Json({{"audio", audio}, {"sample_rate", 16000}}).dump()),
-              HasSubstr("neither times nor a text"));
+              HasSubstr("neither timings nor a text"));
   EXPECT_THAT(said(Json({{"audio", audio}, {"sample_rate", 16000}, {"script", kScript}}).dump()),
               HasSubstr("the script lasts 0.4 s"));
   EXPECT_THAT(said(Json({{"audio", audio}, {"script", kScript}}).dump()), HasSubstr("media"));

@@ -90,7 +90,7 @@ TEST_F(VoiceProgram, ThatFailsSaysWhy) {
   EXPECT_THAT(error_of(shell("echo no model >&2; exit 4", "{wav}")),
               testing::AllOf(HasSubstr("exit code 4"), HasSubstr("no model")));
   EXPECT_THAT(error_of(shell("kill -SEGV $$", "{wav}")), HasSubstr("signal 11"));
-  EXPECT_THAT(error_of(shell("exit 0", "{wav}")), HasSubstr("made no sound"));
+  EXPECT_THAT(error_of(shell("exit 0", "{wav}")), HasSubstr("produced no sound"));
   EXPECT_THAT(error_of(shell("exit 0", "")), HasSubstr("{wav}"));
   EXPECT_THAT(error_of(shell("echo text > \"$1\"", "{wav}")), HasSubstr("the sound of sh"));
   EXPECT_THAT(error_of({.command = "no-such-voice {wav}"}), HasSubstr("no-such-voice"));

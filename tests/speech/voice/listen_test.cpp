@@ -135,7 +135,7 @@ TEST(Listen, WhatIsNoSpeechStaysStill) {
     EXPECT_LT(spoken_seconds(heard->script), 0.1);
     EXPECT_EQ(heard->confidence, 0);
     ASSERT_FALSE(heard->warnings.empty());
-    EXPECT_THAT(heard->warnings[0], HasSubstr("nothing was heard"));
+    EXPECT_THAT(heard->warnings[0], HasSubstr("no speech was recognised"));
   }
 }
 
@@ -146,7 +146,7 @@ TEST(Listen, WarnsOfSoundThatIsCutOff) {
   for (float& sample : loud.samples) sample = std::clamp(sample * 30, -1.0F, 1.0F);
   const auto heard = listen(loud, {});
   ASSERT_TRUE(heard) << heard.error().describe();
-  EXPECT_THAT(heard->warnings, testing::Contains(HasSubstr("cut off at full scale")));
+  EXPECT_THAT(heard->warnings, testing::Contains(HasSubstr("the sound is clipped")));
   const auto clean = listen(sentence().sound, {});
   ASSERT_TRUE(clean) << clean.error().describe();
   EXPECT_THAT(clean->warnings, testing::Not(testing::Contains(HasSubstr("cut off"))));

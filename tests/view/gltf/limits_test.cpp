@@ -201,15 +201,15 @@ TEST_F(HeadFiles, BesideItOrBelow) {
 TEST_F(HeadFiles, NoLinkLeadsOut) {
   test::write_bytes(dir_ / "secret.bin", buffer());
   fs::create_symlink(dir_ / "secret.bin", folder() / "link.bin");
-  EXPECT_THAT(says("link.bin"), HasSubstr("lies outside of the folder"));
+  EXPECT_THAT(says("link.bin"), HasSubstr("is outside the folder"));
   fs::create_directory_symlink(fs::path(dir_ / "."), folder() / "up");
-  EXPECT_THAT(says("up/secret.bin"), HasSubstr("lies outside of the folder"));
-  EXPECT_THAT(says("../secret.bin"), HasSubstr("lies outside of the folder"));
+  EXPECT_THAT(says("up/secret.bin"), HasSubstr("is outside the folder"));
+  EXPECT_THAT(says("../secret.bin"), HasSubstr("is outside the folder"));
 }
 
 TEST_F(HeadFiles, NothingThatHasNoEndOrNeverBegins) {
   ASSERT_EQ(mkfifo((folder() / "pipe").c_str(), 0600), 0);
-  EXPECT_THAT(says("pipe"), HasSubstr("no ordinary file"));
+  EXPECT_THAT(says("pipe"), HasSubstr("not a regular file"));
   fs::create_directories(folder() / "sub");
   EXPECT_THAT(says("sub"), HasSubstr("is a folder"));
   ASSERT_EQ(mkfifo((folder() / "pipe.glb").c_str(), 0600), 0);

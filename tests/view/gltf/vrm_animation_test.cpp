@@ -98,7 +98,7 @@ TEST(VrmAnimation, MistakesAreNamed) {
   const auto made = vrm_animation(wrong.file.glb(), clips);
   ASSERT_TRUE(made);
   EXPECT_THAT(made->expressions, ElementsAre("blink"));
-  EXPECT_THAT(made->notes, ::testing::Contains(HasSubstr("no expression shows alone")));
+  EXPECT_THAT(made->notes, ::testing::Contains(HasSubstr("without an expression of their own")));
 }
 
 }  // namespace vrm_animation_test

@@ -65,7 +65,7 @@ std::string never_right(const std::vector<CaseResult>& results) {
   for (const auto& [feature, count] : by_feature(results)) {
     if (count.right == 0) out += (out.empty() ? "" : ", ") + feature;
   }
-  return out.empty() ? out : "features without a case that is right: " + out + "\n";
+  return out.empty() ? out : "features without a correct case: " + out + "\n";
 }
 
 // Right, but not exact: one line for each reason.
@@ -169,7 +169,7 @@ std::string text_report(const std::vector<CaseResult>& results, bool own) {
          verdicts + ")";
   if (own && sum.encoded_again > 0) {
     out += "; " + std::to_string(sum.encoded_again) + " of " + std::to_string(sum.parameters) +
-           " streams written again byte for byte";
+           " streams re-encoded byte for byte";
   }
   return out + "\n";
 }

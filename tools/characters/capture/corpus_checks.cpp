@@ -85,12 +85,11 @@ std::vector<std::string> doubts_about(const dam::Script& script, const Closures&
     if (longest == nullptr || phone.duration() > longest->duration()) longest = &phone;
   }
   if (spoken == 0) {
-    doubts.emplace_back("nothing is spoken in it");
+    doubts.emplace_back("it contains no speech");
     return doubts;
   }
   if (spoken >= kFewestPhones && double(brief) >= kManyShort * double(spoken)) {
-    doubts.push_back(
-        format("%zu of %zu phones are as short as the aligner can make them", brief, spoken));
+    doubts.push_back(format("%zu of %zu phones have the aligner's minimum length", brief, spoken));
   }
   if (longest->duration() > kLongPhone) {
     doubts.push_back(format("the %s at %.2f s lasts %.2f s", longest->label.c_str(), longest->start,
@@ -98,7 +97,7 @@ std::vector<std::string> doubts_about(const dam::Script& script, const Closures&
   }
   const double rate = phone_rate(script);
   if (usual > 0 && spoken >= kFewestPhones && (rate > kFast * usual || rate < usual / kFast)) {
-    doubts.push_back(format("%.3g phones a second, where %.3g are usual here", rate, usual));
+    doubts.push_back(format("%.3g phones a second; %.3g are usual here", rate, usual));
   }
   return doubts;
 }

@@ -50,8 +50,8 @@ std::string own_units_text(const CorpusReport& report) {
     ++count;
   }
   if (count > 1) {
-    text += format("  alone, the recordings would have an MNS of %.2f to %.2f times that\n", least,
-                   most);
+    text +=
+        format("  the individual recordings have an MNS of %.2f to %.2f times that\n", least, most);
   }
   return text;
 }
@@ -106,18 +106,18 @@ std::string report_text(const CorpusReport& report) {
                             report.folder.c_str(), report.sentences.size(), totals.seconds,
                             report.controls.size(), fap::format_rate(report.rate).c_str());
   if (totals.tracked + totals.before > 0) {
-    text += format("videos: %zu tracked, %zu tracked before\n", totals.tracked, totals.before);
+    text += format("videos: %zu tracked, %zu tracked earlier\n", totals.tracked, totals.before);
   }
   text += own_units_text(report);
   if (totals.filled > 0) {
-    text += format("frames that were not measured: %zu of %zu\n", totals.filled, totals.frames);
+    text += format("unmeasured frames: %zu of %zu\n", totals.filled, totals.frames);
   }
   if (totals.bilabials > 0) {
-    text += format("P B M that are closed: %zu of %zu (%.1f %%)\n", totals.closed, totals.bilabials,
+    text += format("closed P B M: %zu of %zu (%.1f %%)\n", totals.closed, totals.bilabials,
                    100.0 * double(totals.closed) / double(totals.bilabials));
   }
   if (report.lag) {
-    text += format("lips close %.0f ms %s the sound has it\n", std::abs(1000 * *report.lag),
+    text += format("lips close %.0f ms %s the sound\n", std::abs(1000 * *report.lag),
                    *report.lag < 0 ? "before" : "after");
   }
   for (const std::string& warning : report.warnings) text += "warning: " + warning + "\n";
@@ -128,7 +128,7 @@ std::string report_text(const CorpusReport& report) {
     if (!one.warnings.empty()) text += "note: " + one.id + ": " + joined(one.warnings, "; ") + "\n";
   }
   for (const LeftOut& one : report.left_out) {
-    text += "left out: " + one.id + " (" + one.stage + "): " + one.why + "\n";
+    text += "excluded: " + one.id + " (" + one.stage + "): " + one.why + "\n";
   }
   return text;
 }

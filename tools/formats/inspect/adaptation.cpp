@@ -53,14 +53,14 @@ std::string adaptation_text(const std::string& output, const std::string& base,
                             report.controls.size());
   if (report.error > 0)
     text += format(
-        "error on sentences left out in turn: %.1f %% of the variance by the base with gains "
-        "alone, %.1f %% in all\n",
+        "cross-validation error: %.1f %% of the variance for the base with gains only, %.1f %% in "
+        "total\n",
         100 * report.base_error, 100 * report.error);
-  text += report.ridge > 0 ? format("own curves with ridges times %g\n", report.ridge)
-                           : std::string("no own curves: they did not help\n");
+  text += report.ridge > 0 ? format("own curves, ridge factor %g\n", report.ridge)
+                           : std::string("no own curves, since they did not help\n");
   if (report.own_error > 0 && report.own_error < report.error)
     text += format(
-        "learned from these sentences alone it is %.1f %%: leave --base out, unless they lack "
+        "trained on these sentences alone it is %.1f %%: omit --base, unless they lack "
         "phones\n",
         100 * report.own_error);
   std::string little;

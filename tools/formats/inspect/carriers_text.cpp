@@ -52,8 +52,8 @@ tools::Json carried_json(const ClipCarriers& clip) {
 
 std::string carriers_text(const ClipCarriers& clip, const CarrierOptions& options) {
   std::string text = tools::format(
-      "%s: %zu frames at %.4g a second; errors over %zu points of the skin that move;\n"
-      "what 52 shapes show is %.3f mm from the face. * chosen for %g mm RMS (! missed)\n"
+      "%s: %zu frames at %.4g a second; errors over %zu moving points of the skin;\n"
+      "the error of the fit with 52 shapes is %.3f mm. * chosen for %g mm RMS (! missed)\n"
       "%-43s %-12s %8s %9s %8s %8s %7s  %s\n",
       clip.name.c_str(), clip.frames, clip.rate, clip.points, clip.shapes_error, options.error,
       "carrier", "", "error mm", "bytes", "kbit/s", "on wire", "x FBA", "headers");

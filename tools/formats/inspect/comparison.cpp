@@ -114,7 +114,7 @@ std::string text_of(const Difference& difference, const char* what) {
              what, (long long)difference.frames_a, (long long)difference.frames_b,
              (long long)difference.frames_both, difference.same_rate ? "equal" : "DIFFER",
              (long long)difference.first_difference) +
-         format("error: %.3f quantiser steps RMS, %.1f at most; masks differ in %lld places\n\n",
+         format("error: %.3f quantiser steps RMS, maximum %.1f; masks differ in %lld places\n\n",
                 difference.rms_steps, difference.max_steps,
                 (long long)difference.mask_differences) +
          rows_text(difference);

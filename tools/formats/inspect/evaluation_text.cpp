@@ -15,7 +15,7 @@ void add_head(std::string& out, const dam::Evaluation& e) {
   out += format("mean NRMSE        %.4f   (RMSE / standard deviation, scored controls)\n", e.nrmse);
   out += format("  of a still face %.4f   (mean pose)\n", e.still_nrmse);
   out += format(
-      "  gain and offset %.4f   (each control scaled and moved as suits it; a still face: 1)\n",
+      "  after gain fit  %.4f   (NRMSE after a per-control gain/offset fit; a still face: 1)\n",
       e.fitted_nrmse);
   if (e.silence.frames > 0) {
     out += format("  in silence      %.4f   (%zu frames)\n", e.silence.nrmse, e.silence.frames);
@@ -38,12 +38,11 @@ void add_mouth(std::string& out, const dam::Evaluation& e) {
                   one.largest, one.correlation);
   }
   if (e.gap_correlation != 0)
-    out +=
-        format("  inner_gap within sentences: correlation %.3f in the mean\n", e.gap_correlation);
+    out += format("  inner_gap within sentences: mean correlation %.3f\n", e.gap_correlation);
 }
 
 std::string length_text(const dam::ClosureDurationScore& one) {
-  if (!std::isfinite(one.to)) return format("%.0f ms and more", 1000 * one.from);
+  if (!std::isfinite(one.to)) return format("%.0f ms or more", 1000 * one.from);
   if (one.from == 0) return format("under %.0f ms", 1000 * one.to);
   return format("%.0f to %.0f ms", 1000 * one.from, 1000 * one.to);
 }
@@ -62,24 +61,26 @@ void add_lips(std::string& out, const EvaluationReport& report) {
   const dam::Evaluation& e = report.evaluation;
   if (e.closure.phones + e.contact.phones + e.rounding.phones > 0) out += format("\n");
   if (e.closure.phones > 0) {
-    out += format("P B M closed      %.1f %% (measured %.1f %%) of %zu; gap below %g\n",
+    out += format("P B M closed      %.1f %% (recorded %.1f %%) of %zu; gap below %g\n",
                   100 * e.closure.predicted, 100 * e.closure.measured, e.closure.phones,
                   report.closed_gap);
     add_spread(out, "onset", e.closure.onset);
     add_spread(out, "release", e.closure.release);
     add_shut(out, e.closure);
-    out += format("false closures    %.1f a minute; closed elsewhere: made %.1f, measured %.1f\n",
-                  e.closure.false_per_minute, e.closure.stray_predicted_per_minute,
-                  e.closure.stray_measured_per_minute);
+    out += format(
+        "false closures    %.1f a minute; other lip closures per minute: synthesised %.1f, "
+        "recorded %.1f\n",
+        e.closure.false_per_minute, e.closure.stray_predicted_per_minute,
+        e.closure.stray_measured_per_minute);
   }
   if (e.contact.phones > 0) {
-    out += format("F V contact       %.1f %% (measured %.1f %%) of %zu; lower lip %+.0f\n",
+    out += format("F V contact       %.1f %% (recorded %.1f %%) of %zu; lower lip %+.0f\n",
                   100 * e.contact.predicted, 100 * e.contact.measured, e.contact.phones,
                   e.contact.difference);
   }
   if (e.rounding.phones > 0) {
     out +=
-        format("rounded, narrower %.1f (measured %.1f), %zu phones; RMSE %.1f, correlation %.3f\n",
+        format("rounded, narrower %.1f (recorded %.1f), %zu phones; RMSE %.1f, correlation %.3f\n",
                e.rounding.predicted, e.rounding.measured, e.rounding.phones, e.rounding.rmse,
                e.rounding.correlation);
   }
@@ -93,8 +94,8 @@ std::string lag_text(const dam::LagScore& lag) {
 void add_motion(std::string& out, const dam::Evaluation& e) {
   out += format("\nlag               %s, %s; correlation %.3f\n", lag_text(e.timing.all).c_str(),
                 dam::sync_text(e.timing.sync), e.timing.all.correlation);
-  out += format("extremes apart    %.1f ms (%+.1f ms), %zu of velocity\n", e.timing.misalignment,
-                e.timing.offset, e.timing.extremes);
+  out += format("timing error of velocity peaks: %.1f ms (bias %+.1f ms, n = %zu)\n",
+                e.timing.misalignment, e.timing.offset, e.timing.extremes);
   out += format(
       "dynamics          velocity %.3f, acceleration %.3f, jerk %.3f, range %.3f of the "
       "recording\n",
@@ -127,7 +128,7 @@ void add_difference(std::string& out, const char* what, const dam::ErrorDifferen
 void add_against(std::string& out, const EvaluationReport& report) {
   if (!report.difference) return;
   const dam::PairedDifference& d = *report.difference;
-  out += format("\n%s less %s, %zu scored controls in common, 95 %% of %d draws of %zu sentences\n",
+  out += format("\n%s minus %s, %zu common scored controls, 95 %% of %d draws of %zu sentences\n",
                 report.system.c_str(), report.against.c_str(), report.compared_controls, d.draws,
                 d.sentences);
   add_difference(out, "NRMSE", d.nrmse, 4);
@@ -138,7 +139,7 @@ void add_against(std::string& out, const EvaluationReport& report) {
 void add_codec(std::string& out, const EvaluationReport& report) {
   if (!report.codec) return;
   const CodecScore& codec = *report.codec;
-  out += format("\ncodec             %.2f kbit/s, a stream a sentence\n", codec.kbps);
+  out += format("\ncodec             %.2f kbit/s, one stream per sentence\n", codec.kbps);
   out += format("  its error       NRMSE %.4f, L2 %.3f", codec.error.nrmse, codec.error.l2);
   if (!codec.error.measures.empty() && codec.error.measures[0].name == "inner_gap") {
     out += format(", gap RMSE %.2f", codec.error.measures[0].rmse);
@@ -153,7 +154,7 @@ void add_codec(std::string& out, const EvaluationReport& report) {
 
 void add_controls(std::string& out, const dam::Evaluation& e) {
   out += format("\n%-28s %8s %8s %8s %8s %6s %8s %9s %6s %6s %6s\n", "control", "RMSE", "NRMSE",
-                "max", "corr", "gain", "after it", "velocity", "accel", "jerk", "range");
+                "max", "corr", "gain", "after fit", "velocity", "accel", "jerk", "range");
   std::vector<dam::SeriesScore> series = e.controls;
   series.insert(series.end(), e.measures.begin(), e.measures.end());
   for (std::size_t i = 0; i < series.size(); ++i) {

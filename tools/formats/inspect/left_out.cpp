@@ -26,9 +26,9 @@ std::string line_of(const std::vector<dam::BlankNote>& blanks, std::size_t from,
   if (to - from > kControls) controls += format(" and %zu more", to - from - kControls);
   const dam::BlankNote& note = blanks[from];
   if (note.rows == note.of)
-    return format("sentence '%s' is left out: %s blank throughout", note.id.c_str(),
+    return format("sentence '%s' is skipped: %s blank throughout", note.id.c_str(),
                   (controls + (to - from > 1 ? " are" : " is")).c_str());
-  return format("sentence '%s': %s blank in %zu of %zu rows, first in line %zu; left out",
+  return format("sentence '%s': %s blank in %zu of %zu rows, first in line %zu; skipped",
                 note.id.c_str(), controls.c_str(), note.rows, note.of, note.first_line);
 }
 
@@ -50,8 +50,8 @@ std::vector<std::string> blanks_text(const dam::LeftOut& left_out) {
         format("... and blanks in %zu more sentences (--json names them all)", sentences - kNamed));
   if (left_out.sentences > 1)
     lines.push_back(
-        format("%zu sentences are left out whole; a control that many of them lack is "
-               "better left out by --controls",
+        format("%zu sentences are skipped completely; if many of them lack a control, exclude it "
+               "with --controls",
                left_out.sentences));
   return lines;
 }

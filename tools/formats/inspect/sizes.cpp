@@ -216,7 +216,8 @@ std::string sizes_means(const std::vector<ClipSizes>& clips, int quant, double m
              "file: preset file at fap_quant %d, the same values as plain once filled in\n"
              "floor: the differences of these values alone, in models exactly as wide as they are\n"
              "kept: the same with --kept-ranges, share of file\n"
-             "live5, live1: preset live, joining points every 5 s and every second, share of file; "
+             "live5, live1: preset live, random access points every 5 s and every second, share of "
+             "file; "
              "kbit/s of live1\n"
              "limited: preset file with an error of at most %g FAP units RMS over the FAPs that "
              "move\n",

@@ -50,14 +50,14 @@ std::string text_of(const BitStatistics& bits) {
   const double total = double(bits.framing_bits + bits.header_bits + bits.value_bits);
   std::string text;
   const auto percent = [total](std::int64_t part) { return 100 * double(part) / total; };
-  text += format("bit rate: %.3f kbit/s, %.3f in the costliest second\n", bits.kbit_per_s,
+  text += format("bit rate: %.3f kbit/s, %.3f in the largest second\n", bits.kbit_per_s,
                  bits.peak_kbit_per_s);
   text += text_of("I planes:", bits.intra) + text_of("P planes:", bits.predictive);
   text += format(
       "share of all bits: values %.1f %%, plane headers %.1f %%, start codes and stuffing "
       "%.1f %%\n",
       percent(bits.value_bits), percent(bits.header_bits), percent(bits.framing_bits));
-  text += format("values: %lld bits, ideal %.0f (the rest ends segments)\n",
+  text += format("values: %lld bits, ideal %.0f (the rest are segment ends)\n",
                  (long long)bits.value_bits, bits.ideal_bits());
   return text;
 }

@@ -38,13 +38,14 @@ std::string steps_text(const dam::TrainSummary& summary) {
                    100 * relative_fall(summary.objective, i));
   }
   if (summary.converged) return text + format("converged after %d steps\n", summary.iterations);
-  return text + format("stopped after %d steps, before convergence; --max-iterations allows more\n",
-                       summary.iterations);
+  return text +
+         format("stopped after %d steps, before convergence; allow more with --max-iterations\n",
+                summary.iterations);
 }
 
 std::string lag_text(const dam::Alignment& alignment) {
   if (!alignment.lag || alignment.lag->notable()) return {};  // that one is a warning
-  return format("sound and motion are in time (%+.0f ms, 95 %%: %+.0f to %+.0f ms)\n",
+  return format("sound and motion are synchronous (%+.0f ms, 95 %%: %+.0f to %+.0f ms)\n",
                 1000 * alignment.lag->seconds, 1000 * alignment.lag->low,
                 1000 * alignment.lag->high);
 }
@@ -61,9 +62,8 @@ std::string explained_text(const dam::TrainSummary& summary) {
     if (least == nullptr || control.explained < least->explained) least = &control;
   }
   if (least == nullptr) return {};
-  return format(
-      "%.0f %% of the motion explained of sentences that were held out, least of %s: %.0f %%\n",
-      100 * sum / double(moving), least->name.c_str(), 100 * least->explained);
+  return format("%.0f %% of the variance of held-out sentences explained, lowest for %s: %.0f %%\n",
+                100 * sum / double(moving), least->name.c_str(), 100 * least->explained);
 }
 
 }  // namespace
@@ -149,7 +149,7 @@ std::string ties_text(const dam::TrainSummary& summary) {
   for (const dam::UnknownPhone& phone : summary.unknown) {
     if (!phone.spoken_as.empty()) ties += " " + phone.label + " (" + phone.spoken_as + ")";
   }
-  return ties.empty() ? ties : "not in the data, spoken by relatives:" + ties;
+  return ties.empty() ? ties : "not in the data, replaced by similar phones:" + ties;
 }
 
 }  // namespace animeme::inspect

@@ -134,17 +134,16 @@ Result<fba::AccessUnits> for_live_use(fba::AccessUnits units, const fba::Decoded
     auto again = with_joints(units, decoded, coding);
     if (!again) return again.error().in_file(name);
     if (*again) {
-      log.info(name + ": coded again, so that receivers can join every " +
-               interval_text(coding.intra_seconds) + "; --copy keeps it as it is");
+      log.info(name + ": re-encoded, so that receivers can join every " +
+               interval_text(coding.intra_seconds) + "; --copy keeps it unchanged");
       return std::move(**again);
     }
   }
   const double longest = longest_intra_interval(with_true_joints(units, decoded));
   if (longest > kLongInterval) {
-    log.warn(
-        name + ": up to " + interval_text(longest) +
-        " pass between two intra planes, so long a receiver that joins or loses a packet has to "
-        "wait; without --copy it is coded again");
+    log.warn(name + ": up to " + interval_text(longest) +
+             " between two intra planes, so a receiver that joins or loses a packet waits that "
+             "long; without --copy it is re-encoded");
   }
   return units;
 }

@@ -33,18 +33,17 @@ IntervalShares shares_of(const std::vector<media::IntraInterval>& intervals) {
 std::string receive_advice(const media::ReceiveStats& stats) {
   std::string out;
   if (stats.sessions > 1) {
-    out += tools::format("sessions: %lld, on one clock\n", (long long)(stats.sessions));
+    out += tools::format("sessions: %lld, joined on one clock\n", (long long)(stats.sessions));
   }
   if (stats.foreign > 0) {
     out += tools::format("ignored: %lld datagrams, damaged or not from the sender\n",
                          (long long)(stats.foreign));
   }
   if (stats.wait <= 0 || stats.latest <= 0.01) return out;
-  out +=
-      tools::format("packets or copies came up to %.2f s late and were waited for up to %.2f s\n",
-                    stats.latest, stats.wait);
+  out += tools::format("packets or copies were up to %.2f s late; waited up to %.2f s for them\n",
+                       stats.latest, stats.wait);
   if (stats.late > 0 && stats.latest > stats.wait) {
-    out += tools::format("%lld came too late: --reorder-most %.1f would have waited for them\n",
+    out += tools::format("%lld packets were too late: use --reorder-most %.1f to wait for them\n",
                          (long long)(stats.late), std::ceil(12.5 * stats.latest) / 10);
   }
   return out;
@@ -53,7 +52,7 @@ std::string receive_advice(const media::ReceiveStats& stats) {
 std::string receive_line(double seconds, const media::Recorder& recorder,
                          const media::ReceiveStats& stats) {
   return tools::format(
-      "%.0f s: %lld planes usable, %lld not, packets %lld, lost %lld, late %lld, "
+      "%.0f s: %lld planes usable, %lld unusable, packets %lld, lost %lld, late %lld, "
       "jitter %.2f ms, sound %.1f s",
       seconds, (long long)(recorder.recovery().usable), (long long)(recorder.recovery().dropped),
       (long long)(stats.packets), (long long)(stats.lost), (long long)(stats.late),
@@ -68,9 +67,8 @@ std::string receive_summary(const media::Recorder& recorder, const media::Receiv
          tools::format(
              "packets: %lld, lost %lld, late %lld, duplicates %lld, reordered %lld; jitter %.2f "
              "ms\n"
-             "planes: %lld usable, %lld received in vain, %.2f %% usable; still for %.2f s, %.2f s "
-             "at "
-             "most\n"
+             "planes: %lld usable, %lld unusable, %.2f %% usable; frozen for %.2f s, longest %.2f "
+             "s\n"
              "intra intervals: %zu, usable on average %.2f %%, in the worst %.2f %%\n"
              "face %.2f s, sound %.2f s",
              (long long)(stats.packets), (long long)(stats.lost), (long long)(stats.late),

@@ -36,12 +36,12 @@ Result<void> Sinks::each(Act act) {
       continue;
     }
     address.broken = true;
-    if (last) log_.warn(last->describe() + "; it is left out from here on");
+    if (last) log_.warn(last->describe() + "; it is not used any more");
     last = done.error().in_file(address.url);
   }
   if (!last) return {};
   if (!alive) return *last;
-  log_.warn(last->describe() + "; it is left out from here on");
+  log_.warn(last->describe() + "; it is not used any more");
   return {};
 }
 
@@ -51,8 +51,8 @@ Result<void> Sinks::start(const media::LiveInfo& info) {
     if (!web::is_open_to_others(webrtc::page_of(address.url))) continue;
     log_.warn(address.url +
               " is open to every machine that can reach this one: the page, the values and the "
-              "sound, without a password. http://127.0.0.1:PORT is for this machine alone; a proxy "
-              "in front of that one can ask for a password");
+              "sound, without a password. use http://127.0.0.1:PORT for this machine only, with a "
+              "proxy that asks for a password if necessary");
   }
   return {};
 }

@@ -32,15 +32,15 @@ Result<dam::Script> script_of(Result<dam::Timings> timings, const std::string& p
     timings = voice::words_to_phones(*timings, settings, warnings);
     if (!timings) return timings.error().in_file(path);
     for (const std::string& warning : warnings) log.warn(path + ": " + warning);
-    log.info(path + ": words with times; their phones are guessed by pronunciation");
+    log.info(path + ": words with times; their phones are estimated from pronunciations");
   }
   Result<dam::Script> script = dam::make_script(*timings);
   if (!script) return script.error().in_file(path);
   if (script->duration() > input.most_seconds) {
     return make_error(Code::out_of_range,
                       "the script lasts " + std::to_string(std::llround(script->duration())) +
-                          " s, at most " + std::to_string(std::llround(input.most_seconds)) +
-                          " s are spoken; correct its times or allow more (--max-seconds)")
+                          " s, the limit is " + std::to_string(std::llround(input.most_seconds)) +
+                          " s; correct its times or raise the limit (--max-seconds)")
         .in_file(path);
   }
   return script;
@@ -112,7 +112,7 @@ std::optional<dam::Script> carried_script(const std::string& path, const ScriptI
   Result<dam::Script> script =
       script_of(dam::labels_of_tier(grid_of(tracks), input.reading), path, input, log, nullptr);
   if (script) return std::move(*script);
-  log.warn("its words are left out: " + script.error().describe());
+  log.warn("its words are ignored: " + script.error().describe());
   return std::nullopt;
 }
 

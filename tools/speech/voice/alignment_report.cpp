@@ -27,7 +27,7 @@ std::string place_of(const std::vector<AlignedWord>& words, std::size_t first, s
   const bool none = first == 0;
   if (none && end == words.size()) return "";
   if (none) return "before " + quoted(words[end]) + ", ";
-  if (end == words.size()) return "behind " + quoted(words[first - 1]) + ", ";
+  if (end == words.size()) return "after " + quoted(words[first - 1]) + ", ";
   return "between " + quoted(words[first - 1]) + " and " + quoted(words[end]) + ", ";
 }
 
@@ -79,7 +79,7 @@ void warn_of_left_out(Alignment& alignment) {
     }
     i = end - 1;
   }
-  add_rest(count, "places where words are not said", alignment);
+  add_rest(count, "places with omitted words", alignment);
 }
 
 void warn_of_put_in(Alignment& alignment) {
@@ -88,11 +88,11 @@ void warn_of_put_in(Alignment& alignment) {
     const auto& words = alignment.words;
     if (one.before < words.size() && !words[one.before].said && words[one.before].known) continue;
     if (++count > kMostNamed) continue;
-    alignment.warnings.push_back("something is said that the transcript does not have (" +
+    alignment.warnings.push_back("there is speech that is not in the transcript (" +
                                  place_of(words, one.before, one.before) + span_of(one) +
                                  "); the face uses the recognised phones, about " + phones_of(one));
   }
-  add_rest(count, "places where more is said than the transcript has", alignment);
+  add_rest(count, "places with additional speech", alignment);
 }
 
 void warn_of_doubts(Alignment& alignment) {
@@ -105,7 +105,7 @@ void warn_of_doubts(Alignment& alignment) {
   }
   if (count == 0) return;
   if (count > kMostNamed) list += " and " + std::to_string(count - kMostNamed) + " more";
-  alignment.warnings.push_back("the sound hardly fits these words; are they said? " + list);
+  alignment.warnings.push_back("the sound hardly fits these words; were they said? " + list);
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ Result<std::string> samples(const Sheet& sheet) {
 std::string about(const Sheet& sheet) {
   std::string text = "<p class=\"about\">measured on " + safe(sheet.corpus);
   if (sheet.model != nullptr) {
-    text += tools::format("; method %s, %zu controls, %zu sounds",
+    text += tools::format("; method %s, %zu controls, %zu phones",
                           std::string(dam::method_name(sheet.model->method)).c_str(),
                           sheet.model->controls.size(), sheet.model->phones.size());
     if (!sheet.model->provenance.empty()) text += "<br>" + safe(sheet.model->provenance);
@@ -108,13 +108,12 @@ Result<std::string> make_sheet(const Sheet& sheet) {
          title + "</title>\n<style>" + kStyle + "</style>\n<h1>" + title + "</h1>\n" +
          about(sheet) + figures(*sheet.evaluation) + "<h2>Curves</h2>\n<div class=\"curves\">" +
          *curves + "</div>\n" + *heads +
-         "<h2>Sounds</h2>\n<p>Where the error is, the largest first: 1 is as far off as a mouth "
-         "that does not move.</p>\n" +
+         "<h2>Phones</h2>\n<p>Errors by phone, largest first; 1 is the error of a mouth that does "
+         "not move.</p>\n" +
          sounds(*sheet.evaluation, sheet.model) + "<h2>Controls</h2>\n" +
          controls(*sheet.evaluation) +
-         "<h2>Outliers</h2>\n<p>Often they have the labels of another one, or the "
-         "tracker slipped: look "
-         "at them first.</p>\n" +
+         "<h2>Outliers</h2>\n<p>Often they have the wrong labels or tracking errors: check them "
+         "first.</p>\n" +
          sentences(*sheet.evaluation, *sheet.pairs) + "</html>\n";
 }
 

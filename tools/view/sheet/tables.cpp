@@ -20,9 +20,9 @@ std::string row(const std::string& name, const std::string& value, const std::st
 }
 
 const char* alike(double correlation) {
-  if (correlation >= 0.8) return "moves as the recording does";
-  if (correlation >= 0.65) return "moves much as the recording does";
-  if (correlation >= 0.45) return "follows the recording, with differences one can see";
+  if (correlation >= 0.8) return "moves like the recording";
+  if (correlation >= 0.65) return "moves mostly like the recording";
+  if (correlation >= 0.45) return "follows the recording, with visible differences";
   return "has little to do with the recording";
 }
 
@@ -38,9 +38,9 @@ std::string closures(const dam::ClosureScore& score) {
   const bool fewer = score.predicted < score.measured - 0.02;
   return row("P, B, M closed", format("%.1f %%", 100 * score.predicted),
              format("of %zu; the recording closes %.1f %%%s", score.phones, 100 * score.measured,
-                    fewer ? ": lips that stay open are seen first" : "")) +
-         row("closed elsewhere", format("%.1f", score.false_per_minute),
-             "times a minute where the recording stays open");
+                    fewer ? ": open lips are the most visible error" : "")) +
+         row("other lip closures", format("%.1f", score.false_per_minute),
+             "per minute where the recording stays open");
 }
 
 std::string contacts(const dam::ContactScore& score) {
@@ -51,7 +51,7 @@ std::string contacts(const dam::ContactScore& score) {
 
 std::string timing(const dam::TimingScore& score) {
   if (!score.all.lag) return {};
-  return row("in time", format("%+.0f ms", *score.all.lag), dam::sync_text(score.sync));
+  return row("synchronisation", format("%+.0f ms", *score.all.lag), dam::sync_text(score.sync));
 }
 
 std::uint32_t examples_of(const dam::Model* model, const std::string& phone) {
@@ -70,10 +70,10 @@ std::string safe(const std::string& text) { return tools::escape_xml(text); }
 
 std::string figures(const dam::Evaluation& e) {
   std::string html = "<table class=\"figures\">\n";
-  html += row("likeness", format("%.2f", e.correlation),
+  html += row("similarity", format("%.2f", e.correlation),
               std::string(alike(e.correlation)) + " (mean correlation; 1 is the same)");
   html += row("error", format("%.2f", e.nrmse),
-              format("of how much the face moves; a still face has %.2f", e.still_nrmse));
+              format("relative to the motion of the face; a still face has %.2f", e.still_nrmse));
   html += closures(e.closure) + contacts(e.contact) + timing(e.timing);
   html += row("liveliness", format("%.2f", e.dynamics.velocity), lively(e.dynamics.velocity));
   html += row("measured on", format("%zu", e.utterances),
@@ -89,7 +89,7 @@ std::string sounds(const dam::Evaluation& evaluation, const dam::Model* model) {
                    [](const auto& a, const auto& b) { return a.nrmse > b.nrmse; });
   const double most = phones.front().nrmse;
   std::string html =
-      "<table class=\"sounds\"><tr><th>sound</th><th>error</th><th></th><th>here</th>";
+      "<table class=\"sounds\"><tr><th>phone</th><th>error</th><th></th><th>here</th>";
   html += model != nullptr ? "<th>in training</th></tr>\n" : "</tr>\n";
   for (const dam::GroupScore& phone : phones) {
     html += "<tr><th>" + safe(phone.name) + "</th>" +
@@ -109,7 +109,7 @@ std::string sounds(const dam::Evaluation& evaluation, const dam::Model* model) {
 std::string controls(const dam::Evaluation& e) {
   std::string html =
       "<table "
-      "class=\"controls\"><tr><th>control</th><th>likeness</th><th>error</th><th></"
+      "class=\"controls\"><tr><th>control</th><th>similarity</th><th>error</th><th></"
       "th><th>liveliness</th></tr>\n";
   for (std::size_t c = 0; c < e.controls.size(); ++c) {
     const dam::SeriesScore& control = e.controls[c];

@@ -268,8 +268,7 @@ TEST(RtpLoopback, ErrorsSayWhatToDo) {
   const std::string url = "rtp://127.0.0.1:" + std::to_string(port);
   const auto first = open_source(url);
   ASSERT_TRUE(first);
-  EXPECT_THAT(message(open_source(url)),
-              HasSubstr("cannot be listened to: Address already in use"));
+  EXPECT_THAT(message(open_source(url)), HasSubstr("cannot be bound: Address already in use"));
   auto sink = open_sink(url);
   EXPECT_EQ((*sink)->send({}).error().code, Code::invalid_argument);
   EXPECT_FALSE((*sink)->start({}));

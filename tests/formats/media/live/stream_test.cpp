@@ -172,10 +172,10 @@ TEST_F(Streams, AStreamThatCannotBeJoinedIsCodedAgain) {
   };
   const auto [joints, talk] = intra({});
   EXPECT_GT(joints, 1);
-  EXPECT_THAT(talk, HasSubstr("coded again, so that receivers can join every 1.0 s"));
+  EXPECT_THAT(talk, HasSubstr("re-encoded, so that receivers can join every 1.0 s"));
   const auto [kept, warning] = intra({"--intra-seconds", "0.2", "--copy"});
   EXPECT_EQ(kept, 1);
-  EXPECT_THAT(warning, HasSubstr("without --copy it is coded again"));
+  EXPECT_THAT(warning, HasSubstr("without --copy it is re-encoded"));
   EXPECT_GT(intra({"--intra-seconds", "0.2"}).first, 8);
 }
 
