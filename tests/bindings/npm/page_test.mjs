@@ -189,7 +189,7 @@ test('what is missing is told', async () => {
   assert.match(await page.evaluate('events.join()'), /none\.mp4: 404/);
   await put(page, {src: '/media/head.glb?.mp4'});
   await page.wait('events.some((event) => event.startsWith("error"))');
-  assert.match(await page.evaluate('events.join()'), /error: this is no mp4/);
+  assert.match(await page.evaluate('events.join()'), /error: this is not an mp4/);
   await page.close();
 });
 

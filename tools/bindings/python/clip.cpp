@@ -183,22 +183,22 @@ bool equal(const Clip& a, const py::object& b) {
 }  // namespace
 
 void bind_clip(py::module_& module) {
-  py::class_<Clip>(module, "Clip", R"(A clip of a face: what is coded of it, frame by frame.
+  py::class_<Clip>(module, "Clip", R"(A clip of a face: its coded values, frame by frame.
 
-Rows of the arrays are frames. Their content may be changed; their shapes stay. FAP n is column
+Rows of the arrays are frames. Their content may be changed, but not their shape. FAP n is column
 n - 1. A FAP whose mask is False is absent: it keeps the value that a receiver shows, which is
-not the same as 0. len(clip) is the number of frames, clip[10:20] a part of it that begins at
-time 0 (of clip.fill() if FAPs are absent that were there before), clip["open_jaw"] the column of
+not the same as 0. len(clip) is the number of frames; clip[10:20] is a part that begins at
+time 0 (of clip.fill() if FAPs are absent that were present before); clip["open_jaw"] is the column of
 a FAP, a view: clip["open_jaw"] *= 2 changes the clip. clip["open_jaw"] = x (a number or one for each
 frame, rounded as values are) also sets the mask of that FAP in every frame.)")
       .def(py::init(&make_clip), py::arg("values"), py::arg("mask") = py::none(),
            py::arg("rate") = 25, py::kw_only(), py::arg("numbers") = py::none(),
            py::arg("viseme") = py::none(), py::arg("expression") = py::none(), py::arg("name") = "",
-           R"(A clip from arrays, which are copied.
+           R"(Makes a clip from arrays, which are copied.
 
-values: (frames, 68), FAP units: 1/1024 of the FAP's unit or 1e-5 rad; rounded to whole ones.
+values: (frames, 68), FAP units: 1/1024 of the FAP's unit or 1e-5 rad; rounded to integers.
     Columns 0 and 1 are not used, see viseme and expression.
-mask: (frames, 68) or (68,), True where a FAP is there; None: all low-level FAPs are, FAP 1
+mask: (frames, 68) or (68,), True if a FAP is present; None: all low-level FAPs, FAP 1
     with viseme and FAP 2 with expression.
 rate: frames a second: a number, a Fraction or "30000/1001"; 29.97 is the NTSC rate.
 numbers: (frames,), ascending frame numbers at the rate, gaps are skipped frames; None: 0, 1, 2 ...
@@ -206,9 +206,9 @@ viseme: (frames, 4): select1, select2 0..14, blend 0..63, def 0 or 1.
 expression: (frames, 6): select1 0..6, intensity1 0..63, select2, intensity2, init_face, def.
 name: free text.)")
       .def_property("values", view_of(&Clip::values), filled(&Clip::values, "values"),
-                    "int32 (frames, 68): FAP n in column n - 1, FAP units; 0 where absent.")
+                    "int32 (frames, 68): FAP n in column n - 1, FAP units; 0 if absent.")
       .def_property("mask", view_of(&Clip::mask), &fill_mask,
-                    "bool (frames, 68): True where the frame has the FAP.")
+                    "bool (frames, 68): True if the frame has the FAP.")
       .def_property("viseme", view_of(&Clip::viseme), filled(&Clip::viseme, "viseme"),
                     "int32 (frames, 4): FAP 1 where mask[:, 0]: select1, select2, blend, def.")
       .def_property(
@@ -219,7 +219,7 @@ name: free text.)")
           "numbers", [](const Clip& c) { return c.numbers.attr("copy")(); },
           "int64 (frames,): frame numbers at the rate, ascending; gaps are skipped frames.")
       .def_property_readonly("times", &clip_times,
-                             "float64 (frames,): seconds at which each frame is shown.")
+                             "float64 (frames,): presentation time of each frame, seconds.")
       .def_property_readonly(
           "rate", [](const Clip& c) { return c.rate.frames_per_second(); },
           "Frames a second, as a float.")

@@ -162,46 +162,47 @@ void bind_clip_tools(py::module_& module) {
   clip.def(
           "fill", &fill, py::kw_only(), py::arg("interpolate") = false, py::arg("expand") = true,
           py::arg("complete") = false, py::arg("keep_high_level") = false,
-          R"(The clip with every FAP resolved as receivers do: no gaps, the same mask in each frame.
+          R"(The clip with every FAP filled in as by a receiver: no gaps, the same mask in each frame.
 
-interpolate: skipped frames lie between their neighbours; else they hold.
-expand: FAP 1 and 2 become low-level FAPs.
-complete: low-level FAPs that are never sent are there, too, at 0.
-keep_high_level: FAP 1 and 2 stay beside low-level FAPs.)")
+interpolate: interpolate skipped frames; otherwise they repeat the previous one.
+expand: convert FAP 1 and 2 to low-level FAPs.
+complete: low-level FAPs that are never sent are present, at 0.
+keep_high_level: keep FAP 1 and 2 besides low-level FAPs.)")
       .def("resample", &resample, py::arg("rate"),
-           R"(The complete clip at another rate, by straight lines between frames.
+           R"(The complete clip at another rate, interpolated linearly.
 
 rate: frames a second: a number, a Fraction or "30000/1001".)")
       .def("arkit", &arkit, py::kw_only(), py::arg("progress") = py::none(),
            R"(The clip as ARKit's weights: float64 (frames, 61), columns ARKIT_NAMES.
 
-52 shapes 0..1, then 9 angles of head and eyes in radians; 0.1 ms a frame, other threads run
-meanwhile. progress: called now and then with (share 0..1, "fitting").)")
+52 shapes 0..1, then 9 angles of head and eyes in radians; 0.1 ms a frame. Releases the GIL.
+progress: called from time to time with (share 0..1, "fitting").)")
       .def_static("from_arkit", &from_arkit, py::arg("weights"), py::arg("names") = py::none(),
                   py::arg("rate") = 60,
-                  R"(A clip from ARKit's weights.
+                  R"(Makes a clip from ARKit's weights.
 
 weights: (frames, names): shapes 0..1, angles in radians.
-names: of the columns, as ARKit or Live Link Face spell them; None: ARKIT_NAMES.
+names: of the columns, in the spelling of ARKit or Live Link Face; None: ARKIT_NAMES.
 rate: frames a second.)")
-      .def("visemes", &visemes,
-           "The clip as weights of visemes: float64 (frames, 15), columns VISEME_NAMES, 0..1 and\n"
-           "1 together.")
+      .def(
+          "visemes", &visemes,
+          "The clip as viseme weights: float64 (frames, 15), columns VISEME_NAMES, 0..1, with the\n"
+          "sum 1.")
       .def(
           "to_text", [](const Clip& c) { return fap::write_text(sequence_of(c)); },
-          "The clip as FAP text (.fap, version 2.1), values and masks as they are.")
+          "The clip as FAP text (.fap, version 2.1), with unchanged values and masks.")
       .def("save", &save_clip, py::arg("path"), py::kw_only(), py::arg("preset") = "file",
            py::arg("quant") = 1, py::arg("max_rms") = 0.0, py::arg("max_bits_per_second") = 0.0,
            py::arg("intra_seconds") = py::none(), py::arg("audio") = py::none(),
-           R"(Writes the clip as the name of the file says, whole or not at all.
+           R"(Writes the clip in the format given by the file name, atomically.
 
 .fba stream; .fap text; .mp4 .mkv .ts .m3u8 .mpd containers; .csv curves of FAPs;
 .livelink.csv and .json ARKit's weights; .visemes.json .visemes.csv; .tsv .dat .xml .rhubarb.json
 mouth shapes of Rhubarb; .talkinghead.json.
 
 path: str or os.PathLike.
-preset, quant, max_rms, max_bits_per_second, intra_seconds: as of encode(), for streams and
-    containers; these can be joined every 5 s unless intra_seconds says otherwise.
+preset, quant, max_rms, max_bits_per_second, intra_seconds: as for encode(), for streams and
+    containers; receivers can join every 5 s, or as given by intra_seconds.
 audio: a sound file to go into a container.
 
 Raises Error. Other threads run meanwhile.)")

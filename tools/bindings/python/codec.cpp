@@ -73,26 +73,26 @@ void bind_codec(py::module_& module) {
   module.def("encode", &encode, py::arg("clip"), py::kw_only(), py::arg("preset") = "file",
              py::arg("quant") = 1, py::arg("max_rms") = 0.0, py::arg("max_bits_per_second") = 0.0,
              py::arg("intra_seconds") = py::none(), py::arg("progress") = py::none(),
-             R"(A clip as the bytes of an FBA stream (ISO/IEC 14496-2), checked by decoding it.
+             R"(Encodes a clip to an FBA stream (ISO/IEC 14496-2), verified by decoding it.
 
-clip: a Clip with one frame at least.
-preset: "file": the smallest stream of the same values; "live": receivers can join every 2 s;
+clip: a Clip with at least one frame.
+preset: "file": the smallest stream with the same values; "live": receivers can join every 2 s;
     "plain": every FAP of the clip in every plane.
 quant: 0..31; 1: the standard's steps, not visible; 0: lossless for values up to +-1860.
-max_rms: above 0: the fewest bits at this error, root mean square: FAP units, of angles half
-    quantiser steps; quant is ignored.
-max_bits_per_second: above 0: the least error at this rate; quant is ignored.
+max_rms: above 0: the smallest size for this RMS error in FAP units (for angles in half
+    quantiser steps); quant is ignored.
+max_bits_per_second: above 0: the smallest error at this bit rate; quant is ignored.
 intra_seconds: seconds between planes where decoding can begin; 0: one; None: as the preset says.
 progress: called now and then with (share 0..1, "coding") where a limit makes it search.
 
 FAPs that a frame lacks keep their last value. Other threads run meanwhile. Raises Error.)");
   module.def("decode", &decode, py::arg("stream"),
-             R"(The face of a whole FBA stream as a Clip: mask is True where a value was coded.
+             R"(The face of a complete FBA stream as a Clip: mask is True if a value was coded.
 
 stream: bytes or any object with a buffer; it is not copied.
 
-Raises Error at the first fault, with position.bit; Decoder goes on behind it. Other threads run
-meanwhile.)");
+Raises Error at the first fault, with position.bit; use Decoder to continue after it. Releases the
+GIL.)");
 }
 
 }  // namespace animeme::python

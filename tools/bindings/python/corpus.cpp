@@ -118,18 +118,18 @@ const dam::Utterance& sentence_of(const Corpus& corpus, const py::object& key) {
 
 void bind_sentence(py::module_& module) {
   py::class_<dam::Utterance>(module, "Sentence",
-                             "A recorded sentence: what was said when, and how the face moved.")
+                             "A recorded sentence: timed phones and the motion of the face.")
       .def(py::init(&make_sentence), py::arg("id"), py::arg("phones"), py::arg("values"),
            py::arg("names") = py::none(), py::kw_only(), py::arg("rate") = 25,
-           py::arg("measured") = py::none(), py::arg("text") = "", R"(A sentence from arrays.
+           py::arg("measured") = py::none(), py::arg("text") = "", R"(Makes a sentence from arrays.
 
 id: a name, unique in a corpus.
 phones: tuples (start, end, label[, word]): seconds, ARPAbet without stress or "SIL", ascending.
 values: (frames, names), each control in its own units (FAP units for FAPs), time 0 first; or a
     Clip, whose FAPs are the controls then.
-names: of the columns: FAP numbers, or names as "jawOpen".
+names: of the columns: FAP numbers, or names such as "jawOpen".
 rate: frames a second; that of a Clip is its own.
-measured: (frames,), False where a value is a guess, from which nothing is learned.
+measured: (frames,), False if a value is estimated; training ignores it.
 text: what was said.)")
       .def_readonly("id", &dam::Utterance::id, "Name, unique in a corpus.")
       .def_readonly("text", &dam::Utterance::text, "What was said; empty: unknown.")
@@ -138,12 +138,12 @@ text: what was said.)")
           "list of Phone: start and end in seconds, label, word.")
       .def_property_readonly(
           "values", [](const dam::Utterance& u) { return array_of(u.signal); },
-          "float64 (frames, names): what was measured, in the units of each control.")
+          "float64 (frames, names): measured values, in the units of each control.")
       .def_property_readonly(
           "names", [](const dam::Utterance& u) { return u.signal.names; },
           "Names of the columns; FAPs are called \"fap3_open_jaw\".")
       .def_property_readonly("measured", &measured_of,
-                             "bool (frames,): False where a value is a guess.")
+                             "bool (frames,): False if a value is estimated.")
       .def_property_readonly(
           "rate", [](const dam::Utterance& u) { return u.signal.rate.frames_per_second(); },
           "Frames a second.")
@@ -152,7 +152,7 @@ text: what was said.)")
           [](const dam::Utterance& u) { return clip_of(value_of(dam::to_sequence(u.signal))); },
           "The motion as a Clip; raises Error if the controls are neither FAPs nor ARKit's.")
       .def_property_readonly("fields", &fields_of,
-                             "All columns of its row in utterances.tsv, as they stand there.");
+                             "All columns of its row in utterances.tsv, as text.");
 }
 
 }  // namespace
@@ -172,17 +172,17 @@ void bind_corpus(py::module_& module) {
                                               R"(Recorded sentences of a folder.
 
 The folder has utterances.tsv (a column `id`), phonemes/ID.tsv (or .TextGrid) and fap/ID.csv (or
-.fap). corpus[3] and corpus["id"] are a Sentence, a loop goes over all.)")
+.fap). corpus[3] and corpus["id"] are a Sentence; iteration yields all.)")
       .def(py::init(&read_corpus), py::arg("folder"), py::arg("split") = "", py::kw_only(),
            py::arg("split_column") = "split", py::arg("controls") = py::none(),
            py::arg("controls_folder") = "fap", py::arg("skip_missing") = false,
-           py::arg("lag") = 0.0, R"(Reads a folder. Other threads run meanwhile.
+           py::arg("lag") = 0.0, R"(Reads a folder. Releases the GIL.
 
-split: only rows with this in `split_column`, as "train"; empty: all.
+split: only rows with this value in `split_column`, such as "train"; empty: all.
 controls: FAP numbers or names of columns, in this order; None: all of the first file.
-controls_folder: with the curves; "arkit" for one with ARKit's weights, say.
-skip_missing: rows without curves are left out instead of an error.
-lag: seconds by which the motion comes after the sound; scripts are shifted by it.
+controls_folder: folder of the curves, for example "arkit" for ARKit's weights.
+skip_missing: skip rows without curves; otherwise they are an error.
+lag: delay of the motion relative to the sound, seconds; scripts are shifted by it.
 
 Raises Error with position.file and line.)")
       .def("__len__", [](const Corpus& c) { return c.corpus.utterances.size(); })

@@ -105,16 +105,17 @@ std::unique_ptr<EvaluationReport> evaluate(const Model& model, const py::object&
 }  // namespace
 
 void bind_evaluate(py::module_& module) {
-  py::class_<EvaluationReport>(module, "Evaluation",
-                               R"(How far a model is from recordings: what evaluate() found.
+  py::class_<EvaluationReport>(
+      module, "Evaluation",
+      R"(The result of evaluate(): the error of a model compared with recordings.
 
-str() is the report for people. Scored are frames of speech, of the FAPs of the lips.)")
+str() is the report as text. Scores cover frames of speech and the FAPs of the lips.)")
       .def_property_readonly(
           "nrmse", [](const EvaluationReport& r) { return r.evaluation.nrmse; },
           "Root mean square error in standard deviations, mean over the scored controls.")
       .def_property_readonly(
           "still_nrmse", [](const EvaluationReport& r) { return r.evaluation.still_nrmse; },
-          "The same of a face that keeps the mean pose.")
+          "The same for a face that keeps the mean pose.")
       .def_property_readonly(
           "correlation", [](const EvaluationReport& r) { return r.evaluation.correlation; },
           "Pearson's, -1..1, mean over the scored controls.")
@@ -123,24 +124,25 @@ str() is the report for people. Scored are frames of speech, of the FAPs of the 
           "Share of P, B and M that close the lips, 0..1.")
       .def_property_readonly(
           "sentences", [](const EvaluationReport& r) { return r.evaluation.utterances; },
-          "How many sentences were scored.")
+          "Number of scored sentences.")
       .def(
           "to_dict", [](const EvaluationReport& r) { return loads(inspect::evaluation_json(r)); },
-          "All of it, as the dict that `animeme evaluate --json` prints; its README says what the\n"
-          "members mean.")
+          "The complete result, as the dict that `animeme evaluate --json` prints; its README\n"
+          "documents the members.")
       .def("__str__", [](const EvaluationReport& r) { return inspect::evaluation_text(r, false); });
 
-  module.def("evaluate", &evaluate, py::arg("model"), py::arg("corpus"), py::kw_only(),
-             py::arg("sharpness") = 1.0, py::arg("articulation") = 0.0, py::arg("closure") = true,
-             py::arg("seen") = py::none(), py::arg("threads") = 0, py::arg("progress") = py::none(),
-             R"(Speaks the sentences of a corpus and compares with its recordings: an Evaluation.
+  module.def(
+      "evaluate", &evaluate, py::arg("model"), py::arg("corpus"), py::kw_only(),
+      py::arg("sharpness") = 1.0, py::arg("articulation") = 0.0, py::arg("closure") = true,
+      py::arg("seen") = py::none(), py::arg("threads") = 0, py::arg("progress") = py::none(),
+      R"(Synthesises the sentences of a corpus and compares them with its recordings: an Evaluation.
 
-model: who speaks them.
+model: the Model to evaluate.
 corpus: a Corpus, or Sentences with the same controls and rate.
-sharpness, articulation, closure: as of Model.speak(); sharpness 0 has the least error.
-seen: what the model was trained on: tells seen from unseen contexts in to_dict().
-threads: 0: as the machine has.
-progress: called now and then with (share 0..1, "speaking"); what it raises ends the evaluation,
+sharpness, articulation, closure: as for Model.speak(); sharpness 0 has the smallest error.
+seen: the training corpus, to distinguish seen from unseen contexts in to_dict().
+threads: 0: as many as the machine has.
+progress: called from time to time with (share 0..1, "speaking"); an exception ends the evaluation,
     and so does Ctrl-C.
 
 Raises Error. Other threads run meanwhile.)");

@@ -180,15 +180,15 @@ void save(const fap::Sequence& clip, const std::string& path, const Coding& codi
 
 void bind_exchange(py::module_& module) {
   module.def("load", &load, py::arg("path"),
-             R"(Reads a face from a file of any kind, told by its content.
+             R"(Reads a face from a file of any supported format, detected by content.
 
 FBA streams, FAP text, containers (.mp4 .mkv .ts ...), curves of FAPs, ARKit's shapes (Live Link
 Face), landmarks of trackers (OpenFace, MediaPipe, dlib).
 
 path: str or os.PathLike.
 
-What was odd is warned of as InputWarning. Raises Error with position.file and line or bit. Other
-threads run meanwhile.)");
+Anomalies give an InputWarning. Raises Error with position.file and line or bit. Releases the
+GIL.)");
   module.def(
       "read", &read, py::arg("data"),
       R"(The same as load() from memory: bytes or any object with a buffer, or text as str.)");

@@ -155,32 +155,32 @@ void save_head(const Head& self, const Clip& clip, const py::object& file) {
 }  // namespace
 
 void bind_head(py::module_& module) {
-  py::class_<Head>(module, "Head", R"(A head that FAPs move: one of ours, or one of yours.
+  py::class_<Head>(module, "Head", R"(A head that FAPs move: a built-in one, or one from a file.
 
-Lengths are cm, +X to the person's left, +Y up, +Z forward, from between the eyes at the depth of
-the ears. The vertices of all parts stand one behind the other, see `parts`.)")
+Lengths are cm, +X to the person's left, +Y up, +Z forward; the origin is between the eyes at the
+depth of the ears. The vertices of all parts are consecutive, see `parts`.)")
       .def(py::init(&make_head), py::arg("name") = "woman", py::kw_only(),
            py::arg("points") = py::none(), py::arg("gain") = 1, R"(Makes or reads a head.
 
 name: "woman", "man", "child", or a file: .glb .gltf .vrm .obj .fdp .xmt.
 points: for heads without shapes: a file with the feature points.
-gain: how much wider lips open than the clip says, or "auto".
+gain: factor for the lip opening, or "auto".
 
 Raises Error with position.file.)")
       .def("pose", &pose, py::arg("values"), py::arg("mask") = py::none(), py::kw_only(),
            py::arg("contact") = true, py::arg("follow") = true,
-           R"(Where the vertices are when FAPs move the head: float32 (n, 3), cm.
+           R"(The vertices of the head moved by FAPs: float32 (n, 3), cm.
 
 values: (68,), FAP units, FAP n at n - 1; or a Clip, and the result is (frames, n, 3).
-mask: (68,), True where a FAP counts; None: those that are not 0.
-contact: lips and lids stop where they touch; False: points are where their FAPs say.
-follow: upper lids go along with the gaze where FAP 19 and 20 are absent.
+mask: (68,), True if a FAP is present; None: those that are not 0.
+contact: lips and lids stop where they touch; False: points follow their FAPs exactly.
+follow: upper lids follow the gaze if FAP 19 and 20 are absent.
 
-Other threads run meanwhile.)")
+Releases the GIL.)")
       .def("save", &save_head, py::arg("clip"), py::arg("path"),
            R"(Writes the head with its motion as glTF (.glb), for Blender, Unreal, Unity, three.js.
 
-clip: the motion, a key a frame.
+clip: the motion, one key per frame.
 path: str or os.PathLike.)")
       .def_property_readonly("vertices", &rest_of, "float32 (n, 3): the head at rest, cm.")
       .def_property_readonly(
@@ -188,12 +188,12 @@ path: str or os.PathLike.)")
           "uint32 (m, 3): vertices of each triangle, counter-clockwise seen "
           "from outside.")
       .def_property_readonly("colours", &colours_of,
-                             "float32 (n, 3): colours of the vertices, linear RGB 0..1; 1 where\n"
+                             "float32 (n, 3): colours of the vertices, linear RGB 0..1; 1 if\n"
                              "the head has textures instead.")
       .def_property_readonly("parts", &head_parts,
                              "Slices of the vertices by part: \"skin\", \"left_eye\" ...")
       .def_property_readonly(
-          "name", [](const Head& h) { return h.head.name; }, "For people.")
+          "name", [](const Head& h) { return h.head.name; }, "Display name.")
       .def_readonly("notes", &Head::notes, "What was guessed or is missing, a sentence each.");
 }
 

@@ -108,16 +108,16 @@ void bind_plane(py::module_& module) {
       .def_readonly("intra", &fba::Plane::intra, "True: decoding can begin here.")
       .def_property_readonly(
           "face", [](const fba::Plane& p) { return fba::has_face(p.object_mask); },
-          "True: the plane codes a face, if only an empty one.")
+          "True: the plane codes a face, possibly an empty one.")
       .def_property_readonly(
           "rate", [](const fba::Plane& p) { return p.rate.frames_per_second(); },
           "Planes a second in force; 30 until the stream sends a rate.")
       .def_property_readonly(
           "values", [](const fba::Plane& p) { return row_of(p.face.value, kFaceRow); },
-          "int32 (68,): FAP n at n - 1, FAP units; 0 where nothing was coded.")
+          "int32 (68,): FAP n at n - 1, FAP units; 0 if not coded.")
       .def_property_readonly(
           "mask", [](const fba::Plane& p) { return flags_of(p.face.mask, kFaceRow); },
-          "bool (68,): True where a value was coded.")
+          "bool (68,): True if a value was coded.")
       .def_property_readonly("viseme", &viseme_of,
                              "FAP 1 if it was coded: (select1, select2, blend, def); else None.")
       .def_property_readonly("expression", &expression_of,
@@ -129,22 +129,22 @@ void bind_plane(py::module_& module) {
           "rad, and bool (296,); else None.")
       .def_property_readonly(
           "bits", [](const fba::Plane& p) { return py::make_tuple(p.bit_begin, p.bit_end); },
-          "First bit of the plane and first bit behind it, from the start of the stream.");
+          "First bit of the plane and first bit after it, from the start of the stream.");
 }
 
 }  // namespace
 
 void bind_live(py::module_& module) {
   bind_plane(module);
-  py::class_<Decoder>(module, "Decoder", R"(Decodes a stream as it comes: push bytes, pull planes.
+  py::class_<Decoder>(module, "Decoder", R"(Decodes a stream incrementally: push bytes, pull planes.
 
     for packet in connection:
         decoder.push(packet)
         for plane in decoder:
             show(plane.values, plane.mask)
 
-A stream takes less than 2 MB, whatever comes in.)")
-      .def(py::init<>(), "A decoder at the begin of a stream.")
+A decoder takes less than 2 MB for any input.)")
+      .def(py::init<>(), "Creates a decoder for a new stream.")
       .def(
           "push", [](Decoder& d, const py::buffer& data) { d.decoder.push(Bytes(data).span()); },
           py::arg("data"), "Appends bytes of the stream, cut anywhere. They are copied.")
@@ -153,21 +153,21 @@ A stream takes less than 2 MB, whatever comes in.)")
           "No more bytes will come; what is pushed later is ignored.")
       .def("pull", &pull,
            "The next Plane, or None: push more, or `ended`. Raises Error with position.bit; call\n"
-           "again, and it goes on at the next plane where decoding can begin.")
+           "again to continue at the next plane where decoding can begin.")
       .def("__iter__", [](py::object self) { return self; })
       .def("__next__", &next_plane, "As pull(), where None ends the loop; begin another one later.")
       .def_readonly("ended", &Decoder::ended, "True once pull() has met the end of the stream.")
       .def_readonly("warnings", &Decoder::warnings, "What was odd so far, a sentence each.");
 
   py::class_<fba::LiveEncoder>(module, "Encoder",
-                               R"(Encodes a stream while it is sent: a frame in, a unit out.
+                               R"(Encodes a live stream: a frame in, a unit out.
 
     encoder = animeme.Encoder(rate=30, quant=2)
     send(encoder.write(values))
 
-Without look-ahead, and what was written can be cut out: each unit begins with a start code.)")
+Without look-ahead; units can be separated: each begins with a start code.)")
       .def(py::init(&make_encoder), py::kw_only(), py::arg("rate") = 25, py::arg("quant") = 1,
-           py::arg("intra_seconds") = 2.0, R"(An encoder at the begin of a stream.
+           py::arg("intra_seconds") = 2.0, R"(Creates an encoder for a new stream.
 
 rate: units a second: a number, a Fraction or "30000/1001".
 quant: 0..31; 1: the standard's steps.
@@ -181,11 +181,11 @@ intra_seconds: seconds between units where receivers can join; 0: only where nee
           py::arg("values"), py::arg("mask") = py::none(), py::arg("skip") = 0,
           R"(The bytes of one frame.
 
-values: (68,), FAP units, FAP n at n - 1; rounded to whole ones.
-mask: (68,), True where a FAP is sent, others keep their value; None: all low-level FAPs.
-skip: frames that will be missing behind this one.
+values: (68,), FAP units, FAP n at n - 1; rounded to integers.
+mask: (68,), True if a FAP is sent, others keep their value; None: all low-level FAPs.
+skip: number of frames skipped after this one.
 
-Raises Error; the stream is then as if the frame had not been.)")
+Raises Error; the stream is then as if the frame had not been passed.)")
       .def(
           "finish", [](fba::LiveEncoder& e) { return unit_bytes(e.finish()); },
           "The bytes that end the stream.")
@@ -197,7 +197,7 @@ Raises Error; the stream is then as if the frame had not been.)")
       .def_property_readonly(
           "shown",
           [](const fba::LiveEncoder& e) { return row_of(e.reconstruction().value, kFaceRow); },
-          "int32 (68,): what receivers have after the last unit.");
+          "int32 (68,): the values of receivers after the last unit.");
 }
 
 }  // namespace animeme::python

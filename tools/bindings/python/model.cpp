@@ -42,25 +42,25 @@ std::vector<std::string> listed(const Items& items, Name name) {
 }  // namespace
 
 void bind_model(py::module_& module) {
-  py::class_<Model>(module, "Model", R"(How a character moves its mouth: what train() has learned.
+  py::class_<Model>(module, "Model", R"(The result of train(): how a character moves its mouth.
 
-A model does not change; any number of threads may speak with it.)")
+A model is immutable and may be used by several threads.)")
       .def_property_readonly(
           "method", [](const Model& m) { return std::string(dam::method_name(m.model.method)); },
           "\"dam\", \"dam-paper\", \"cohen-massaro\", \"mmm\", \"triphone\", \"viseme\" or "
           "\"mean\".")
       .def_property_readonly(
           "controls", [](const Model& m) { return listed(m.model.controls, &dam::Control::name); },
-          "Names of what it moves, \"fap3_open_jaw\" or \"jawOpen\", in the order of its values.")
+          "Names of its controls, \"fap3_open_jaw\" or \"jawOpen\", in the order of its values.")
       .def_property_readonly(
           "phones", [](const Model& m) { return listed(m.model.phones, &dam::PhoneModel::label); },
-          "ARPAbet labels of the sounds that it has learned.")
+          "ARPAbet labels of the phones that it has learned.")
       .def_property_readonly(
           "rate", [](const Model& m) { return m.model.rate.frames_per_second(); },
           "Frames a second of the recordings.")
       .def_property_readonly(
           "attribution", [](const Model& m) { return m.model.attribution; },
-          "Who has to be named when the model is passed on.")
+          "The attribution required when the model is redistributed.")
       .def_property_readonly(
           "provenance", [](const Model& m) { return m.model.provenance; }, "How it was made.")
       .def_property_readonly(
@@ -68,12 +68,11 @@ A model does not change; any number of threads may speak with it.)")
           [](const Model& m) {
             return m.training.empty() ? py::object(py::dict()) : loads(m.training);
           },
-          "What train() found, as the dict that `animeme train --json` prints; {} if it was read.")
+          "Report of train(), as the dict that `animeme train --json` prints; {} if it was read.")
       .def("to_bytes", &model_bytes, "The bytes of its file.")
       .def_static("from_bytes", &from_bytes, py::arg("data"),
-                  "A model from these bytes, or any object with a buffer. Raises Error.")
-      .def("save", &save_model, py::arg("path"),
-           "Writes the model file (.dam), whole or not at all.")
+                  "Reads a model from bytes, or any object with a buffer. Raises Error.")
+      .def("save", &save_model, py::arg("path"), "Writes the model file (.dam) atomically.")
       .def(
           "__eq__",
           [](const Model& m, const py::object& other) {
@@ -86,7 +85,7 @@ A model does not change; any number of threads may speak with it.)")
              "Reads a model file (.dam). Raises Error with position.file.");
   module.def("builtin_model", &builtin_model,
              "The model that comes with Animeme: the mouth of one British speaker, 25 frames a\n"
-             "second. Its `attribution` has to be kept.");
+             "second. Keep its `attribution`.");
 }
 
 }  // namespace animeme::python

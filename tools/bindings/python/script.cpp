@@ -31,15 +31,15 @@ void bind_script(py::module_& module) {
   module.def("read_script", &read_script, py::arg("path"), py::kw_only(), py::arg("lang") = "en",
              R"(Timed phones of a file of any format: a list of Phone, seconds, without gaps.
 
-TextGrid, label files, subtitles, JSON of recognisers and speech services, talking files that
-carry their words.
+TextGrid, label files, subtitles, JSON of recognisers and speech services, media files with
+tracks of words.
 
 path: str or os.PathLike.
-lang: language of words that come without phones.
+lang: language of words without phones.
 
 Raises Error with position.file and line.)");
   module.def("write_script", &write_script, py::arg("phones"), py::arg("path"),
-             R"(Writes a script as the ending says: .TextGrid, .tsv, .pho or .vtt.
+             R"(Writes a script in the format of the extension: .TextGrid, .tsv, .pho or .vtt.
 
 phones: tuples (start, end, label[, word]): seconds, ARPAbet without stress or "SIL".
 path: str or os.PathLike.

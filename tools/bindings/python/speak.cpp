@@ -151,12 +151,12 @@ std::unique_ptr<dam::SpeechStream> make_stream(const Model& model, const py::obj
 
 void bind_speech_stream(py::module_& module) {
   py::class_<dam::SpeechStream>(module, "SpeechStream",
-                                R"(Speaks while the script is being made: phones in, frames out.
+                                R"(Incremental speech: phones in, frames out.
 
     for phone in my_voice:
         show(stream.push(*phone))
 
-A frame comes out as soon as no later phone can change it, or `look_ahead` says not to wait.)")
+A frame is returned as soon as no later phone can change it, or earlier with `look_ahead`.)")
       .def(py::init(&make_stream), py::arg("model"), py::kw_only(), py::arg("rate") = 25,
            py::arg("look_ahead") = py::none(), py::arg("style") = 1.0, py::arg("sharpness") = 1.0,
            py::arg("articulation") = 1.0, py::arg("closure") = true, py::keep_alive<1, 2>(),
@@ -164,8 +164,8 @@ A frame comes out as soon as no later phone can change it, or `look_ahead` says 
 
 model: who speaks.
 rate: frames a second.
-look_ahead: seconds of script that have to be known beyond a frame; None: all that can change it.
-style, sharpness, articulation, closure: as of Model.speak().)")
+look_ahead: seconds of script needed beyond a frame; None: everything that can change it.
+style, sharpness, articulation, closure: as for Model.speak().)")
       .def(
           "push",
           [](dam::SpeechStream& s, double start, double end, const std::string& label,
@@ -174,7 +174,7 @@ style, sharpness, articulation, closure: as of Model.speak().)")
             return array_of(value_of(s.pull()));
           },
           py::arg("start"), py::arg("end"), py::arg("label"), py::arg("word") = "",
-          R"(The next phone; the frames that became final: float64 (frames, controls), often none.
+          R"(Adds a phone; returns the frames that became final: float64 (frames, controls), often none.
 
 start, end: seconds, not before the end of the last phone; gaps are silence.
 label: ARPAbet without stress or "SIL".
@@ -183,7 +183,7 @@ word: to which it belongs.
 Raises Error.)")
       .def(
           "finish", [](dam::SpeechStream& s) { return array_of(value_of(s.finish())); },
-          "The end of the script: the frames that are left, float64 (frames, controls).");
+          "Ends the script; returns the remaining frames, float64 (frames, controls).");
 }
 
 }  // namespace
@@ -205,7 +205,7 @@ void bind_speak(py::module_& module) {
           "Frames a second.")
       .def_property_readonly(
           "phones", [](const Speech& s) { return phones_of(s.spoken.script); },
-          "list of Phone: what is said when, seconds.")
+          "list of Phone: start and end in seconds, label, word.")
       .def_property_readonly("audio", &sound_of,
                              "float32 (samples,): one channel, +-1 is full scale; None: no sound.")
       .def_property_readonly(
@@ -214,13 +214,13 @@ void bind_speak(py::module_& module) {
           "Samples a second; 0: no sound.")
       .def_property_readonly(
           "voice", [](const Speech& s) { return s.spoken.voice; },
-          "Name of the synthetic voice; empty: there was none.")
+          "Name of the synthetic voice; empty: none.")
       .def("save", &save_speech, py::arg("path"), py::kw_only(), py::arg("preset") = "file",
            py::arg("quant") = 1, py::arg("max_rms") = 0.0, py::arg("max_bits_per_second") = 0.0,
            py::arg("intra_seconds") = py::none(),
-           R"(Writes face, sound, words and phones as the name of the file says.
+           R"(Writes face, sound, words and phones in the format given by the file name.
 
-path, preset, quant, max_rms, max_bits_per_second, intra_seconds: as of Clip.save().)");
+path, preset, quant, max_rms, max_bits_per_second, intra_seconds: as for Clip.save().)");
 
   auto model = py::reinterpret_borrow<py::class_<Model>>(module.attr("Model"));
   model.def("speak", &speak, py::arg("said") = py::none(), py::kw_only(),
@@ -228,12 +228,11 @@ path, preset, quant, max_rms, max_bits_per_second, intra_seconds: as of Clip.sav
             py::arg("lang") = "en", py::arg("rate") = 25, py::arg("style") = 1.0,
             py::arg("sharpness") = 1.0, py::arg("articulation") = 1.0, py::arg("closure") = true,
             py::arg("idle_motion") = py::none(), py::arg("seed") = 1, py::arg("speed") = 175,
-            py::arg("pitch") = 50, py::arg("tts") = "", R"(Says something: a Speech.
+            py::arg("pitch") = 50, py::arg("tts") = "", R"(Speaks: returns a Speech.
 
 said: a text, plain or SSML, for a synthetic voice; or phones, tuples (start, end, label[, word]):
-    seconds, ARPAbet without stress or "SIL"; None: what is heard in audio.
-audio: a sound file: with phones beside them, with a transcript aligned with it, alone listened
-    to.
+    seconds, ARPAbet without stress or "SIL"; None: recognise audio.
+audio: a sound file: with phones used as their sound, with a transcript aligned, alone recognised.
 transcript: what is said in audio.
 lang: language of the text: "en", "de", "pt-br"; "zh+en": further ones by script; "auto".
 rate: frames a second.

@@ -98,15 +98,15 @@ void bind_train(py::module_& module) {
   module.def("train", &train, py::arg("corpus"), py::kw_only(), py::arg("method") = "dam",
              py::arg("base") = py::none(), py::arg("threads") = 0, py::arg("max_iterations") = 30,
              py::arg("ridge") = 0.0, py::arg("attribution") = "", py::arg("progress") = py::none(),
-             R"(Learns how a character talks: a Model.
+             R"(Trains a Model from recordings of a character.
 
 corpus: a Corpus, or Sentences with the same controls and rate.
-method: "dam", or to compare with: "dam-paper", "cohen-massaro", "mmm", "triphone", "viseme",
+method: "dam", or for comparison: "dam-paper", "cohen-massaro", "mmm", "triphone", "viseme",
     "mean".
-base: for little material: a Model of "dam" that is bent to these sentences.
-threads: 0: as the machine has; the model is the same, bit by bit, for any number.
-max_iterations: steps at most, 0..1000.
-ridge: of "dam": factor of all ridges; 0 chooses by sentences that are held out.
+base: for little data: a Model of "dam" to adapt to these sentences.
+threads: 0: as many as the machine has; the model is the same, bit by bit, for any number.
+max_iterations: maximum number of steps, 0..1000.
+ridge: for "dam": factor of all ridges; 0 chooses it by held-out sentences.
 attribution: whom to name when the model is passed on; kept in it.
 progress: called now and then with (share 0..1 of the stage, stage); what it raises ends the
     training, and so does Ctrl-C.

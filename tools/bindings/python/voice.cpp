@@ -44,15 +44,14 @@ std::vector<float> samples_of(const py::object& samples_like) {
 }  // namespace
 
 void bind_voice(py::module_& module) {
-  py::class_<speech::HeardFace>(
-      module, "VoiceStream",
-      R"(Follows a voice by its sound while it speaks: samples in, frames out.
+  py::class_<speech::HeardFace>(module, "VoiceStream",
+                                R"(Follows a live voice by its sound: samples in, frames out.
 
     for block in microphone:
         show(stream.push(block))
 
-A frame comes out when `delay` seconds more of the sound have come. Where the sound does not tell yet
-what is said, the face moves less.)")
+A frame is returned when `delay` more seconds of sound have arrived. While the sound is ambiguous,
+the face moves less.)")
       .def(py::init(&make_voice), py::arg("model"), py::arg("sample_rate"), py::kw_only(),
            py::arg("lang") = "en", py::arg("rate") = 25, py::arg("delay") = 0.25,
            py::arg("style") = 1.0, py::arg("sharpness") = 1.0, py::arg("articulation") = 1.0,
@@ -64,7 +63,7 @@ sample_rate: samples a second, 4000..384000.
 lang: language of the voice.
 rate: frames a second.
 delay: seconds of sound beyond a frame, 0.08..2.
-style, sharpness, articulation, closure: as of Model.speak().
+style, sharpness, articulation, closure: as for Model.speak().
 
 Raises Error.)")
       .def(
@@ -77,17 +76,17 @@ Raises Error.)")
             })));
           },
           py::arg("samples"),
-          R"(The next samples; the frames that became due: float64 (frames, controls), often none.
+          R"(Adds samples; returns the frames that became due: float64 (frames, controls), often none.
 
 samples: (n,) int16, or floats with full scale +-1; one channel.
 
-Frames do not depend on how many samples come at once. Raises Error. Other threads run meanwhile.)")
+Frames do not depend on how the samples are split. Raises Error. Releases the GIL.)")
       .def(
           "finish",
           [](speech::HeardFace& face) {
             return array_of(value_of(unlocked([&] { return face.finish(); })));
           },
-          "The voice is over: the frames that are left, float64 (frames, controls).");
+          "Ends the voice; returns the remaining frames, float64 (frames, controls).");
 }
 
 }  // namespace animeme::python

@@ -44,7 +44,7 @@ def _table(program, path, what, folder):
         table = json.load(file)
     if table["format"] != "animeme-" + what or table["version"] != 1:
         found = f"{table['format']} {table['version']}"
-        raise Trouble(f"{path}: animeme writes {found}, which this add-on does not know; update it")
+        raise Trouble(f"{path}: animeme writes {found}, which this add-on does not support; update it")
     rows = table["frames"]
     if not rows:
         raise Trouble(f"{path}: the face has no frame")
@@ -61,7 +61,7 @@ def _faps(program, path, folder, rate):
     for flags, values in zip(lines[::2], lines[1::2]):
         numbers = [int(value) for value in values.split()]
         if flags.split() != ["0", "0"] + ["1"] * 66:
-            raise Trouble(f"{path}: animeme left out FAPs; update it")
+            raise Trouble(f"{path}: animeme omitted FAPs; update it")
         # A number that is left out repeats the frame before.
         while rows and len(rows) < numbers[0]:
             rows.append(rows[-1])

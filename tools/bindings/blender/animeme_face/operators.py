@@ -23,7 +23,7 @@ class Preferences(bpy.types.AddonPreferences):
 
     program: StringProperty(
         name="Program", subtype="FILE_PATH",
-        description="The program animeme, or its folder; empty: that of PATH, or beside this add-on",
+        description="The program animeme, or its folder; empty: from PATH, or from the add-on's folder",
     )
 
     def draw(self, context):
@@ -42,44 +42,44 @@ class ImportFace(bpy.types.Operator, ImportHelper):
     bl_options = {"REGISTER", "UNDO", "PRESET"}
 
     filter_glob: StringProperty(default=ENDINGS, options={"HIDDEN"})
-    frame_start: IntProperty(name="At frame", default=1, description="Frame of the scene at which the clip begins")
+    frame_start: IntProperty(name="Start frame", default=1, description="Frame of the scene at which the clip begins")
     rate: EnumProperty(
         name="Rate", default="KEEP",
-        items=[("KEEP", "The scene's", "Keep the scene's frames a second; the clip is resampled"),
-               ("SET", "The clip's", "Give the scene the clip's frames a second")],
+        items=[("KEEP", "The scene's", "Keep the scene's frame rate; the clip is resampled"),
+               ("SET", "The clip's", "Set the scene's frame rate to the clip's")],
     )
     use_range: BoolProperty(name="Extend the scene", default=True,
-                            description="Move the scene's end behind the clip's")
+                            description="Extend the end of the scene to that of the clip")
     use_sound: BoolProperty(name="Sound", default=True, description="Put the sound into the sequencer")
     sound_path: StringProperty(
         name="Sound file", options={"SKIP_SAVE"},
-        description="Empty: the clip's own, or a sound file of the same name beside it",
+        description="Empty: the clip's own, or a sound file of the same name next to it",
     )
     head: EnumProperty(
         name="Head turns", default="BOTH",
-        items=[("BOTH", "Neck and head", "Half each; all of it where there is one bone"),
+        items=[("BOTH", "Neck and head", "Half each; everything if there is only one bone"),
                ("NECK", "Neck", "The neck's bone"), ("HEAD", "Head", "The head's bone"),
-               ("NONE", "Nothing", "The head stays")],
+               ("NONE", "None", "The head does not move")],
     )
     eyes: EnumProperty(
         name="Eyes", default="AUTO",
-        items=[("AUTO", "As they are made", "By bones, where no shape key turns them"),
-               ("BONES", "Bones", "By bones, whatever there is"), ("SHAPES", "Shapes", "By shape keys only"),
-               ("NONE", "Nothing", "The gaze stays")],
+        items=[("AUTO", "Automatic", "By bones, unless shape keys move them"),
+               ("BONES", "Bones", "Always by bones"), ("SHAPES", "Shapes", "By shape keys only"),
+               ("NONE", "None", "The eyes do not move")],
     )
     use_jaw: BoolProperty(name="Jaw bone", default=True,
-                          description="Turn the jaw's bone as the shape of the jaw opens, where teeth hang on it")
+                          description="Rotate the jaw bone with the jaw shape, if teeth are attached to it")
     fap_scale: EnumProperty(
         name="FAP keys at 1", default="UNITS",
-        items=[("UNITS", "So many units", "A key that is called like a FAP shows so many FAP units at 1"),
-               ("RANGE", "End of its range", "A key that is called like a FAP shows the end of its usual range at 1")],
+        items=[("UNITS", "Units", "A key named like a FAP shows this many FAP units at 1"),
+               ("RANGE", "End of its range", "A key named like a FAP shows the end of its usual range at 1")],
     )
     fap_units: FloatProperty(name="Units", default=1024, min=1, soft_max=100000,
                              description="FAP units at 1: 1024 in heads that Animeme exports")
     own_head: EnumProperty(
         name="Head, if none is selected", default="woman",
         items=[("woman", "Woman", "Make this head"), ("man", "Man", "Make this head"),
-               ("child", "Child", "Make this head"), ("none", "None", "Say that nothing is selected")],
+               ("child", "Child", "Make this head"), ("none", "None", "Report that nothing is selected")],
     )
 
     def draw(self, context):
@@ -107,15 +107,15 @@ class ImportFace(bpy.types.Operator, ImportHelper):
         return {"FINISHED"}
 
     def run(self, context, folder, progress):
-        """Imports; gives what there is to say. `folder` is for files on the way."""
+        """Imports; returns messages. `folder` is for temporary files."""
         path = bpy.path.abspath(self.filepath)
         animeme = program.find(bpy.path.abspath(setting()))
         who = character.find(context.selected_objects)
         if who is None and context.selected_objects and any(map(character.keys_of, context.selected_objects)):
-            raise program.Trouble("The selected meshes have no shape key called like one of ARKit, a viseme or "
-                                  "a FAP (jawOpen, viseme_aa, open_jaw); rename theirs, or select nothing")
+            raise program.Trouble("The selected meshes have no shape key named like an ARKit shape, a viseme or "
+                                  "a FAP (jawOpen, viseme_aa, open_jaw); rename some, or select nothing")
         if who is None and self.own_head == "none":
-            raise program.Trouble("Select a mesh with shape keys, or let 'Head, if none is selected' make one")
+            raise program.Trouble("Select a mesh with shape keys, or set 'Head, if none is selected'")
         # The file first: nothing is made for one that cannot be read.
         face = clip.read(animeme, path, who.wants() if who else set(), lambda share: progress(0.7 * share))
         heard = None
@@ -123,7 +123,7 @@ class ImportFace(bpy.types.Operator, ImportHelper):
             try:
                 heard = sound.find(animeme, path, bpy.path.abspath(self.sound_path), folder)
             except program.Trouble as trouble:  # the face is worth having alone
-                self.report({"WARNING"}, f"Without the sound, which can be given as a file: {trouble}")
+                self.report({"WARNING"}, f"Imported without sound; give it as a file: {trouble}")
         if heard and not os.path.isfile(heard):
             raise program.Trouble(f"{heard}: there is no such sound file")
         if who is None:
@@ -157,7 +157,7 @@ class Panel(bpy.types.Panel):
         kinds = {meaning.kind for meaning in who.meanings.values()} if who else set()
         names = {"arkit": "ARKit", "viseme": "visemes", "fap": "FAPs", "other": "other names"}
         self.layout.label(text=f"{len(who.meanings)} shapes: " + ", ".join(names[kind] for kind in sorted(kinds))
-                          if who else "No shapes selected: a head is made")
+                          if who else "No shapes selected: creates a head")
         self.layout.operator(ImportFace.bl_idname, icon="IMPORT")
 
 

@@ -45,7 +45,7 @@ export class Head {
     this.shapes = bindings(root, arkitNames());
     this.visemes = bindings(root, visemeNames());
     if (!this.shapes.length && !this.visemes.length) {
-      throw new Error('this head has neither shapes of ARKit nor visemes of Oculus');
+      throw new Error('this head has neither ARKit shapes nor Oculus visemes');
     }
     // Where both move the mouth, ARKit's say more.
     this.byVisemes = this.visemes.length > 0 && !this.moves('jawOpen');

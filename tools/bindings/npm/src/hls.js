@@ -12,7 +12,7 @@ const attributes = (text) => Object.fromEntries(
 /** A playlist: {face, sound} of a master, {init, segments: [{url, begin, end}]} of a rendition. */
 export function readPlaylist(text, url) {
   const lines = text.split(/\r?\n/);
-  if (!lines[0].startsWith('#EXTM3U')) throw new AnimemeError('syntax', `${url} is no playlist`);
+  if (!lines[0].startsWith('#EXTM3U')) throw new AnimemeError('syntax', `${url} is not a playlist`);
   const out = {face: null, sound: null, init: null, segments: [], codecs: null, complete: false};
   let duration = 0, time = 0, variant = null;
   for (const line of lines) {
@@ -54,7 +54,7 @@ const bytesOf = async (url, signal) => new Uint8Array(await (await load(url, sig
 async function playlistOf(url, signal) {
   const list = readPlaylist(await (await load(url, signal)).text(), url);
   if (!list.face && !list.sound && !list.complete) {
-    throw new AnimemeError('unsupported', `${url} is still being written; live faces come by WebSocket`);
+    throw new AnimemeError('unsupported', `${url} is still being written; use the WebSocket for live faces`);
   }
   return list;
 }

@@ -33,7 +33,7 @@ export class Library {
 
   allocate(size) {
     const at = this.functions.malloc(size) >>> 0;
-    if (at === 0) throw new AnimemeError('no_memory', 'there is no more memory');
+    if (at === 0) throw new AnimemeError('no_memory', 'out of memory');
     return at;
   }
 

@@ -12,7 +12,7 @@ const kKeep = 10;      // seconds of frames that are kept
 /** First message of /face. */
 export function readHello(bytes) {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-  if (bytes.length < 10 || bytes[0] !== 0x41) throw new AnimemeError('syntax', 'this server is not one of animeme');
+  if (bytes.length < 10 || bytes[0] !== 0x41) throw new AnimemeError('syntax', 'this is not an animeme server');
   if (bytes[1] !== 1) throw new AnimemeError('unsupported', `this server speaks version ${bytes[1]} of /face`);
   const size = view.getUint16(8);
   return {sound: (bytes[3] & 1) !== 0, timescale: view.getUint32(4) || 1, config: bytes.slice(10, 10 + size)};

@@ -96,7 +96,7 @@ function* runs(view, box) {
 function sizesOf(view, stsz, most) {
   const same = view.getUint32(stsz.begin + 4), count = view.getUint32(stsz.begin + 8);
   if (count > kMostSamples || (same ? same * count > most : stsz.begin + 12 + 4 * count > stsz.end)) {
-    throw broken('more samples than there can be');
+    throw broken('too many samples');
   }
   return Array.from({length: count}, (_, i) => same || view.getUint32(stsz.begin + 12 + 4 * i));
 }
@@ -121,7 +121,7 @@ function offsetsOf(view, stbl, sizes) {
       offset += sizes[offsets.length - 1];
     }
   }
-  if (offsets.length < sizes.length) throw broken('samples lie in no chunk');
+  if (offsets.length < sizes.length) throw broken('samples without a chunk');
   return offsets;
 }
 

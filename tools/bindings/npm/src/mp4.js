@@ -25,7 +25,7 @@ export class Mp4Reader {
     const units = [];
     while (this.pending.length) {
       const {offset, size, ...unit} = this.pending[0];
-      if (offset < this.base) throw new AnimemeError('syntax', 'this mp4 is broken: samples lie before their table');
+      if (offset < this.base) throw new AnimemeError('syntax', 'this mp4 is broken: samples come before their table');
       if (offset + size > this.base + this.bytes.length) break;
       this.pending.shift();
       units.push({...unit, bytes: this.bytes.slice(offset - this.base, offset - this.base + size)});
@@ -36,7 +36,7 @@ export class Mp4Reader {
 
   /** No more bytes will come. */
   finish() {
-    if (!this.track) throw new AnimemeError('unsupported', 'this is no mp4 with a face');
+    if (!this.track) throw new AnimemeError('unsupported', 'this is not an mp4 with a face');
     if (this.pending.length) throw new AnimemeError('truncated', 'this mp4 ends before its samples');
   }
 
@@ -45,7 +45,7 @@ export class Mp4Reader {
     const begin = this.at - this.base;
     const box = begin <= view.byteLength ? boxAt(view, begin) : null;
     if (!box) return false;
-    if (this.at === 0 && !kFirst.includes(box.type)) throw new AnimemeError('syntax', 'this is no mp4');
+    if (this.at === 0 && !kFirst.includes(box.type)) throw new AnimemeError('syntax', 'this is not an mp4');
     if (box.type === 'moov' || box.type === 'moof') {
       if (box.end > view.byteLength) return false;
       try {

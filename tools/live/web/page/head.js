@@ -16,7 +16,7 @@ try {
   const canvas = document.createElement('canvas');
   canvas.id = 'head';
   canvas.setAttribute('role', 'img');
-  canvas.setAttribute('aria-label', 'Head that moves with the stream; drag to turn it');
+  canvas.setAttribute('aria-label', 'Head that moves with the stream; drag to rotate it');
   const view = new HeadView(canvas, model);  // throws without WebGL2
   const number = (name) => Number(asked.get(name)) || 0;
   if (['left', 'up', 'zoom'].some((name) => asked.has(name))) {

@@ -86,7 +86,7 @@ const Live = (() => {
       const mime = this.info.audio.mime;
       if (!Source || !Source.isTypeSupported(mime)) {
         this.soundless = true;
-        this.events.error(`This browser cannot play ${mime} from a stream; try talk.mp4 below.`);
+        this.events.error(`This browser cannot stream ${mime}; try talk.mp4 below.`);
         return;
       }
       const source = new Source();

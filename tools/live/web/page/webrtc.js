@@ -38,7 +38,7 @@ const Rtc = (() => {
         await this.connect();
       } catch (problem) {
         if (!this.running) return;
-        console.info(`WebRTC does not work here (${problem.message}), WebSockets do`);
+        console.info(`WebRTC failed (${problem.message}); using WebSockets`);
         this.hangUp();
         this.refusedRtc = true;
         super.start();
@@ -90,14 +90,14 @@ const Rtc = (() => {
 
     opened(peer) {
       return new Promise((done, failed) => {
-        const late = () => failed(new Error('no connection in time'));
+        const late = () => failed(new Error('connection timed out'));
         const found = () => /^(connected|completed)$/.test(peer.iceConnectionState);
         setTimeout(() => { if (!found()) late(); }, kPatience);
         setTimeout(late, kMostPatience);
         const look = () => {
           const state = peer.connectionState;
           if (state === 'failed' || state === 'closed') {
-            failed(new Error('no way through'));
+            failed(new Error('no network path'));
             this.broken();
           } else if (state === 'disconnected') {  // it may come back, but rarely does
             setTimeout(() => { if (peer.connectionState === state) this.broken(); }, kPatience);

@@ -38,7 +38,7 @@ export class Chooser {
     const button = document.createElement('button');
     button.type = 'button';
     button.textContent = name;
-    button.title = 'Show or hide all of them';
+    button.title = 'Show or hide all';
     legend.append(button);
     const rows = faps.map((fap) => this.row(fap, clips));
     element.append(legend, ...rows);

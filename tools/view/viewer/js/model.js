@@ -58,7 +58,7 @@ function readFacets(reader, info, part) {
 export function readModel(bytes) {
   const reader = new ByteReader(bytes);
   const {header} = reader;
-  if (header.version !== 4) throw new Error(`a head of version ${header.version} is not known`);
+  if (header.version !== 4) throw new Error(`unknown version ${header.version} of the head format`);
   const {rig, parts: shapes} = loadRig(reader.u8(header.rig), header.parts.length);
   const parts = header.parts.map((info, i) => readPart(reader, info, shapes[i]));
   const pictures = (header.pictures || []).map(({type, bytes: size}) => ({type, file: reader.u8(size)}));

@@ -37,7 +37,7 @@ export class Stage {
     this.canvas.hidden = true;
     this.message.hidden = false;
     this.message.textContent = message === 'no WebGL2' ?
-        'This browser shows no WebGL2, which the head needs: switch hardware acceleration on, ' +
+        'The head needs WebGL2, which this browser does not provide: enable hardware acceleration, ' +
         'or use a current Firefox, Chrome, Edge or Safari. Curves and sound work without it.' :
         `The head cannot be drawn: ${message}. Curves and sound work without it.`;
   }
