@@ -173,7 +173,7 @@ TEST(MuxCommand, RefusalsNameTheRemedy) {
   const TempDir dir;
   const auto ts = animeme({"mux", sample(), sample(), "--audio-codec", "opus", "-o", dir / "a.ts"});
   EXPECT_EQ(ts.exit_code, 3);
-  EXPECT_THAT(ts.err, HasSubstr("takes no opus; code the sound as aac"));
+  EXPECT_THAT(ts.err, HasSubstr("does not support opus; code the sound as aac"));
   const auto pipe = animeme({"mux", sample(), sample(), "-o", "-"});
   EXPECT_EQ(pipe.exit_code, 3);
   EXPECT_THAT(pipe.err, HasSubstr("standard output"));

@@ -105,7 +105,7 @@ TEST_F(TrainOdd, BlanksAreLeftOutAndNamed) {
   ASSERT_EQ(text.exit_code, 0) << text.err;
   EXPECT_THAT(text.err, AllOf(HasSubstr("sentence 'bgahzn': fap3_open_jaw blank in 3 of 75 rows, "
                                         "first in line 21; left out"),
-                              HasSubstr("sentence 'bram3s' is left out: fap5_raise_b_midlip is "
+                              HasSubstr("sentence 'bram3s' is skipped: fap5_raise_b_midlip is "
                                         "blank throughout")));
   const json all = train_json(briefly({folder(), "-o", dir_ / "m.dam"}));
   EXPECT_EQ(all["utterances"], 23);

@@ -159,7 +159,7 @@ TEST_F(MuxFailure, CodecsThatAFormatDoesNotTake) {
   const MuxOptions opus{.audio = {.codec = AudioCodec::opus}};
   refused("a.ts", input_, opus, "a .ts file does not support opus; code the sound as aac");
   refused("a.m4a", {.audio = &sound_}, opus, "takes no opus");
-  refused("a.opus", {.audio = &sound_}, {}, "takes no aac; code the sound as opus");
+  refused("a.opus", {.audio = &sound_}, {}, "does not support aac; code the sound as opus");
   refused("a.webm", {.audio = &sound_}, {}, "takes no aac");
   refused("a.webm", input_, opus, "can only contain sound");
   refused("a.ts", {.face = &face_, .encoded = &*coded}, {}, "takes no opus");
