@@ -104,7 +104,7 @@ TEST_F(TrainOdd, BlanksAreLeftOutAndNamed) {
   const auto text = train(briefly({folder(), "-o", dir_ / "m.dam"}));
   ASSERT_EQ(text.exit_code, 0) << text.err;
   EXPECT_THAT(text.err, AllOf(HasSubstr("sentence 'bgahzn': fap3_open_jaw blank in 3 of 75 rows, "
-                                        "first in line 21; left out"),
+                                        "first in line 21; skipped"),
                               HasSubstr("sentence 'bram3s' is skipped: fap5_raise_b_midlip is "
                                         "blank throughout")));
   const json all = train_json(briefly({folder(), "-o", dir_ / "m.dam"}));
