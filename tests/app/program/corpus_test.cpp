@@ -175,7 +175,7 @@ TEST(Corpus, GoesOnAndTellsWhatIsLeftOut) {
   }
   EXPECT_FALSE(fs::exists(fs::path(out) / "fap/unknown.csv"));
   EXPECT_THAT(slurp(fs::path(out) / "report.txt"),
-              AllOf(HasSubstr("6 sentences"), HasSubstr("left out: unknown (track): ")));
+              AllOf(HasSubstr("6 sentences"), HasSubstr("excluded: unknown (track): ")));
 
   // The rest was tracked and is not tracked again; the same comes out.
   const std::size_t before = studio.tracks();

@@ -159,7 +159,7 @@ TEST(Import, SeparatorsCaseAndForeignColumns) {
       "\xEF\xBB\xBFTIME_S;JAWOPEN;Comfort;headpitch;headRoll;measured\r\n"
       "0;0.5;7;10;0;1\r\n\r\n0.04;0.5;7;-10;0;1\r\n",
       {"--degrees"});
-  EXPECT_THAT(take.talk, HasSubstr("left out: Comfort\n"));
+  EXPECT_THAT(take.talk, HasSubstr("ignored: Comfort\n"));
   ASSERT_EQ(take.clip.frames.size(), 2u);
   EXPECT_EQ(take.clip.frames[0].value[48], 17453);
   EXPECT_EQ(take.clip.frames[0].value[3], 680);

@@ -95,7 +95,7 @@ TEST(ImportLandmarks, FeaturePointsByTheirNames) {
   expect_faps(take.clip, {3, 14, 15, 19, 20, 48, 49, 50}, 1);
   EXPECT_FALSE(take.clip.frames[4].mask[5]);
   EXPECT_TRUE(take.clip.frames[5].mask[5]);
-  EXPECT_THAT(take.talk, AllOf(HasSubstr("left out: note"), HasSubstr("not seen: 1\n")));
+  EXPECT_THAT(take.talk, AllOf(HasSubstr("ignored: note"), HasSubstr("missing points: 1\n")));
 }
 
 TEST(ImportLandmarks, FacesAreTakenOneByOne) {
