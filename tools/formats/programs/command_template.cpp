@@ -68,7 +68,7 @@ Result<CommandTemplate> parse_command(std::string_view line) {
   CommandTemplate command;
   command.arguments = std::move(*arguments);
   const std::string& program = command.arguments.front();
-  if (!is_found(program)) return bad("cannot find an executable program " + program + "");
+  if (!is_found(program)) return bad("cannot find an executable program " + program);
   return command;
 }
 
