@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <exception>
 
+#include "tools/formats/common/json.h"
 #include "tools/formats/media/detail/tracks/words_internal.h"
 #include "tools/formats/media/live/audio_segments.h"
 #include "tools/live/web/detail/headers.h"
