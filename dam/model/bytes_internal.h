@@ -2,8 +2,10 @@
 // Emscripten 3.1 lacks std::bit_cast, its compiler has what is behind it.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -87,9 +89,15 @@ class ByteReader {
       for (auto& element : value) get(element);
     } else {
       std::uint64_t bits = 0;
-      if (has(sizeof(Value)))
-        for (std::size_t i = 0; i < sizeof(Value); ++i)
-          bits |= std::uint64_t(bytes_[at_++]) << (8 * i);
+      if (has(sizeof(Value))) {
+        if constexpr (std::endian::native == std::endian::little) {
+          std::memcpy(&bits, bytes_.data() + at_, sizeof(Value));
+        } else {
+          for (std::size_t i = 0; i < sizeof(Value); ++i)
+            bits |= std::uint64_t(bytes_[at_ + i]) << (8 * i);
+        }
+        at_ += sizeof(Value);
+      }
       value = Value(bits);
     }
   }
