@@ -225,8 +225,7 @@ TEST(Json, DepthIsBoundedOnlyByTheReader) {
 
 TEST(Json, ManyMembersAreReadQuickly) {
   std::string text = "{";
-  for (int i = 0; i < 50000; ++i)
-    text += "\"member " + std::to_string(i * 7919 % 50000) + "\":1,";
+  for (int i = 0; i < 50000; ++i) text += "\"member " + std::to_string(i * 7919 % 50000) + "\":1,";
   text.back() = '}';
   const Result<Json> read = Json::parse(text, {.sorted = true});
   ASSERT_TRUE(read);

@@ -38,7 +38,7 @@ void warn(const std::string& sentence);
 /// Collects what a library has to say while the interpreter belongs to others.
 struct Heard {
   std::vector<std::string> sentences;             ///< for warn()
-  tools::Log log();                      ///< puts them there
+  tools::Log log();                               ///< puts them there
   void tell(const std::string& file = {}) const;  ///< warns of all
 };
 
