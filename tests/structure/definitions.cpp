@@ -252,7 +252,8 @@ std::vector<std::string> double_definitions(
   std::map<std::string, std::vector<std::string>> where;
   std::vector<std::string> result;
   for (const auto& [path, text] : files) {
-    if (path.ends_with("_absent.cpp")) continue;  // in place of another file, never beside it
+    // In place of another file, never beside it.
+    if (path.ends_with("_absent.cpp") || path.ends_with("_late.cpp")) continue;
     const std::vector<std::string> names = definitions_in(text);
     for (const std::string& name : std::set<std::string>(names.begin(), names.end())) {
       if (name == "?") {

@@ -17,8 +17,8 @@ std::vector<std::string> definitions_in(std::string_view text);
 
 /// Names that two files of one program define: "name: path, path". `files` are paths and texts.
 /// Tests are programs of their own, a folder each (in fuzz and bench a file each); headers and
-/// tests/support may be part of any. A file "x_absent.cpp" is compiled in place of others and left
-/// out.
+/// tests/support may be part of any. A file "x_absent.cpp" or "x_late.cpp" is compiled in place of
+/// others and left out.
 std::vector<std::string> double_definitions(
     const std::vector<std::pair<std::string, std::string>>& files);
 

@@ -58,7 +58,6 @@ inline constexpr Module kModules[] = {
     {"tools/formats/media tools/formats/media/live "
      "tools/formats/media/rtp tools/formats/media/detail/*",
      "codec/decode fap/xml tools/formats/files"},
-    {"tools/formats/media/late", "tools/formats/media tools/formats/common", false},
     {"tools/app/mpi", "fap tools/formats/common", false},
     {"tools/speech/text", "dam/script"},
     {"tools/speech/voice", "tools/speech/text tools/formats/media"},
@@ -89,6 +88,9 @@ inline constexpr Module kModules[] = {
      "tools/app/batch tools/characters/capture tools/characters/crossmap tools/formats/exchange "
      "tools/formats/inspect tools/live/sessions tools/live/serve "
      "tools/view/sheet tools/view/studio tools/app/check tools/app/mpi",
+     false},
+    {"tools/app/late",
+     "tools/speech/voice tools/speech/text tools/formats/media tools/formats/common fap/xml",
      false},
     {"tools/characters/trackers/dlib", "", false},  // a program for dlib's users, no part of ours
     {"tools/app", "tools/app/commands", false},

@@ -27,9 +27,8 @@ struct Found {
   std::string version, licence, file;
 };
 
-struct Module {
-  const char* name;
-  const char* use;
+struct Loaded {
+  const Module* module;
   std::string problem;  // why it does not load; empty: it is there
 };
 
@@ -109,14 +108,16 @@ std::string licence_of_all(const std::vector<Found>& found, std::string& why) {
   return "MIT AND CC-BY-4.0";
 }
 
-std::vector<Module> load_modules() {
-  std::vector<Module> modules = {{"animeme_ffmpeg.so", "containers, sound, video", ""},
-                                 {"animeme_mpi.so", "training by many processes", ""},
-                                 {"animeme_webrtc.so", "WebRTC", ""}};
-  for (Module& module : modules) {
-    load_module(module.name, ANIMEME_MODULE_FOLDER, RTLD_NOW | RTLD_LOCAL, module.problem);
+std::vector<Loaded> load_all() {
+  std::vector<Loaded> all;
+  for (const Module& module : kModules) {
+#ifndef ANIMEME_LATE  // a program of shared libraries is linked with the others
+    if (find_module(module).empty()) continue;
+#endif
+    Loaded& one = all.emplace_back(Loaded{&module, ""});
+    load_module(module, RTLD_NOW | RTLD_LOCAL, one.problem);
   }
-  return modules;
+  return all;
 }
 
 // Rows that nobody else brings, of libraries that are not there. Those of Python's module are not
@@ -131,14 +132,18 @@ std::vector<const Library*> absent_libraries(const std::vector<Found>& found) {
   return absent;
 }
 
-std::string as_json(const std::vector<Module>& modules, const std::vector<Found>& found) {
+std::string as_json(const std::vector<Loaded>& modules, const std::vector<Found>& found) {
   std::string why;
   Json json = {{"version", ANIMEME_VERSION},
                {"licence_of_sources", "MIT AND CC-BY-4.0"},
                {"licence_as_linked", licence_of_all(found, why)}};
-  json["modules"] = json_list(modules, [](const Module& module) {
-    Json one = {{"file", module.name}, {"for", module.use}, {"found", module.problem.empty()}};
-    if (!module.problem.empty()) one["problem"] = module.problem;
+  json["modules"] = json_list(modules, [](const Loaded& loaded) {
+    const Module& module = *loaded.module;
+    Json one = {{"file", module.file}, {"for", module.use}, {"found", loaded.problem.empty()}};
+    if (!loaded.problem.empty()) {
+      one["problem"] = loaded.problem;
+      one["packages"] = module.packages;
+    }
     return one;
   });
   json["libraries"] = json_list(found, [](const Found& one) {
@@ -154,7 +159,7 @@ std::string as_json(const std::vector<Module>& modules, const std::vector<Found>
   return pretty(json);
 }
 
-std::string as_text(const std::vector<Module>& modules, const std::vector<Found>& found) {
+std::string as_text(const std::vector<Loaded>& modules, const std::vector<Found>& found) {
   std::ostringstream out;
   std::string why;
   const std::string licence = licence_of_all(found, why);
@@ -162,9 +167,12 @@ std::string as_text(const std::vector<Module>& modules, const std::vector<Found>
       << "Sources: MIT; built-in model: CC-BY-4.0 (GRID corpus, see LICENSE and README)\n"
       << "As linked here: " << licence << (why.empty() ? "" : " (by " + why + ")") << "\n";
   out << "\nModules, loaded when they are asked for:\n";
-  for (const Module& module : modules) {
-    out << "  " << std::left << std::setw(20) << module.name << module.use << ": "
-        << (module.problem.empty() ? "found" : "not found: " + module.problem) << "\n";
+  for (const auto& [module, problem] : modules) {
+    out << "  " << std::left << std::setw(20) << module->file << module->use << ": "
+        << (problem.empty()
+                ? "found"
+                : std::string("not found: apt install ") + module->packages + " (" + problem + ")")
+        << "\n";
   }
   out << "\nLibraries, with those that modules bring:\n";
   for (const Found& one : found) {
@@ -188,12 +196,8 @@ std::string version_text(bool verbose, bool json) {
   if (!verbose) {
     return json ? pretty(Json{{"version", ANIMEME_VERSION}}) : "animeme " ANIMEME_VERSION;
   }
-  std::vector<Module> modules = load_modules();
+  const std::vector<Loaded> modules = load_all();
   const std::vector<Found> found = found_libraries();
-  // A build of shared libraries is linked with FFmpeg itself.
-  for (const Found& one : found) {
-    if (one.library->name == std::string_view("libavformat")) modules.front().problem.clear();
-  }
   return json ? as_json(modules, found) : as_text(modules, found);
 }
 

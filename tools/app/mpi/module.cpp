@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "tools/app/mpi/ranks.h"
+#include "tools/formats/common/module.h"
 
 namespace {
 
@@ -38,9 +39,8 @@ void receive(std::uint8_t* bytes, std::uint64_t size, int from) {
              MPI_STATUS_IGNORE);
 }
 
+constexpr animeme::mpi::Functions kTable = {join, leave, send, size_from, receive};
+
 }  // namespace
 
-extern "C" [[gnu::visibility("default")]] const animeme::mpi::Functions* animeme_mpi_functions() {
-  static constexpr animeme::mpi::Functions table = {join, leave, send, size_from, receive};
-  return &table;
-}
+ANIMEME_MODULE(kTable);

@@ -1,9 +1,6 @@
 #include "tools/app/mpi/ranks.h"
 
-#include <dlfcn.h>
-
 #include <cstdlib>
-#include <string>
 
 #include "tools/formats/common/module.h"
 
@@ -17,16 +14,10 @@ extern "C" void leave_ranks(int status, void* functions) {
 }  // namespace
 
 Result<Ranks> Ranks::join() {
-  std::string problem;
   // Modules that OpenMPI loads in its turn look for its names among those of all.
-  void* module =
-      tools::load_module("animeme_mpi.so", ANIMEME_MODULE_FOLDER, RTLD_NOW | RTLD_GLOBAL, problem);
-  void* entry = module == nullptr ? nullptr : dlsym(module, "animeme_mpi_functions");
-  if (entry == nullptr)
-    return make_error(
-        Code::unsupported,
-        "MPI is not there (" + problem + "); install it (Debian: libopenmpi-dev) and build again");
-  const Functions& functions = *reinterpret_cast<const Functions* (*)()>(entry)();
+  const auto loaded = tools::load_functions<Functions>(tools::kMpiModule, RTLD_NOW | RTLD_GLOBAL);
+  if (!loaded) return loaded.error();
+  const Functions& functions = **loaded;
   int rank = 0, size = 1;
   functions.join(&rank, &size);
   // However the program ends, its status is known here only.

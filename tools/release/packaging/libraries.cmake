@@ -81,7 +81,8 @@ function(animeme_install_licences)
   endif()
   set(pages "libc++ (pages)" "wasi-libc (pages)")  # part of the WebAssembly of tools/view/viewer/rig
   if(TARGET animeme)
-    animeme_spdx(animeme COMPONENT program LINKED animeme LOADED animeme_ffmpeg animeme_mpi animeme_webrtc_module
+    get_property(modules GLOBAL PROPERTY ANIMEME_MODULES)
+    animeme_spdx(animeme COMPONENT program LINKED animeme LOADED ${modules}
       CONTAINS ${models} CLI11 nlohmann_json toml++ ${pages})
     set(tools nlohmann_json toml++ ${pages})
   endif()

@@ -5,6 +5,7 @@
 #include "dam/script/script_text_internal.h"
 #include "tools/speech/text/chinese.h"
 #include "tools/speech/text/japanese.h"
+#include "tools/speech/text/late_internal.h"
 #include "tools/speech/text/say_as_internal.h"
 #include "tools/speech/text/ssml.h"
 #include "tools/speech/text/unicode.h"
@@ -271,6 +272,10 @@ Result<Utterance> make_utterance(std::string_view text, Speakers speakers, const
     out.source = code_points(text);
     const bool only_pictures = !has_words(out.source);
     if (auto done = maker.plain(as_written(out.source), only_pictures); !done) return done.error();
+  }
+  const auto is_ascii = [](char32_t code) { return code < 0x80; };
+  if (!unicode_here() && !std::all_of(out.source.begin(), out.source.end(), is_ascii)) {
+    out.warnings.push_back(late_text().error().message + "; the text goes to the voice as it is");
   }
   out.speakers = std::move(speakers.list);
   return out;

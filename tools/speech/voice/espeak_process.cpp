@@ -1,7 +1,5 @@
 #include "tools/speech/voice/espeak_process.h"
 
-#include <espeak-ng/speak_lib.h>
-
 #include <algorithm>
 #include <cstring>
 #include <iterator>
@@ -10,6 +8,7 @@
 #include <utility>
 
 #include "tools/speech/voice/child.h"
+#include "tools/speech/voice/espeak_internal.h"
 
 namespace animeme::voice {
 namespace {
@@ -66,7 +65,7 @@ int on_speech(short* samples, int count, espeak_EVENT* events) {
 }
 
 std::int32_t initialise(const std::string& data_path) {
-  return espeak_Initialize(
+  return (*espeak())->initialize(
       AUDIO_OUTPUT_SYNCHRONOUS, 0, data_path.empty() ? nullptr : data_path.c_str(),
       espeakINITIALIZE_PHONEME_EVENTS | espeakINITIALIZE_PHONEME_IPA | espeakINITIALIZE_DONT_EXIT);
 }
@@ -83,24 +82,25 @@ bool g_voice = false;
 void prepare(const std::string& data_path, const std::string& voice) {
   g_voice_name = voice;
   g_rate = std::max(initialise(data_path), 0);
-  if (g_rate > 0) g_voice = espeak_SetVoiceByName(voice.c_str()) == EE_OK;
+  if (g_rate > 0) g_voice = (*espeak())->set_voice_by_name(voice.c_str()) == EE_OK;
 }
 
 bool speak_all(Sender& sender, const EspeakJob& job) {
   if (g_rate <= 0) return sender.send(kFailure, kNoData);
+  const EspeakFunctions& library = **espeak();
   if (!sender.send(kSampleRate, bytes_of(&g_rate, 1))) return false;
   g_sender = &sender;
-  espeak_SetSynthCallback(on_speech);
+  library.set_synth_callback(on_speech);
   if (!g_voice) return sender.send(kFailure, "espeak-ng cannot load its voice " + g_voice_name);
-  espeak_SetParameter(espeakRATE, job.options.words_per_minute, 0);
-  espeak_SetParameter(espeakPITCH, job.options.pitch, 0);
-  espeak_SetParameter(espeakRANGE, job.options.pitch_range, 0);
-  espeak_SetParameter(espeakWORDGAP, job.options.word_gap, 0);
+  library.set_parameter(espeakRATE, job.options.words_per_minute, 0);
+  library.set_parameter(espeakPITCH, job.options.pitch, 0);
+  library.set_parameter(espeakRANGE, job.options.pitch_range, 0);
+  library.set_parameter(espeakWORDGAP, job.options.word_gap, 0);
   const unsigned flags =
       espeakCHARS_UTF8 | (job.mnemonics ? espeakPHONEMES : 0) | (job.markup ? espeakSSML : 0);
   for (const std::string& text : job.texts) {
-    if (espeak_Synth(text.c_str(), text.size() + 1, 0, POS_CHARACTER, 0, flags, nullptr, nullptr) !=
-        EE_OK) {
+    if (library.synth(text.c_str(), text.size() + 1, 0, POS_CHARACTER, 0, flags, nullptr,
+                      nullptr) != EE_OK) {
       return sender.send(kFailure, "espeak-ng failed to speak the text");
     }
     if (!sender.send(kTextEnd, {})) return false;
@@ -111,9 +111,9 @@ bool speak_all(Sender& sender, const EspeakJob& job) {
 bool send_voices(Sender& sender, const std::string& data_path) {
   if (initialise(data_path) <= 0) return sender.send(kFailure, kNoData);
   const char* data = nullptr;
-  espeak_Info(&data);
+  (*espeak())->info(&data);
   if (data != nullptr && !sender.send(kDataPath, data)) return false;
-  const espeak_VOICE** list = espeak_ListVoices(nullptr);
+  const espeak_VOICE** list = (*espeak())->list_voices(nullptr);
   for (; list != nullptr && *list != nullptr; ++list) {
     const espeak_VOICE& voice = **list;
     std::string wire = std::string(voice.name) + '\0' + voice.identifier + '\0';
@@ -126,7 +126,7 @@ bool send_voices(Sender& sender, const std::string& data_path) {
   }
   espeak_VOICE wanted{};
   wanted.languages = "variant";
-  list = espeak_ListVoices(&wanted);
+  list = (*espeak())->list_voices(&wanted);
   for (; list != nullptr && *list != nullptr; ++list) {
     if (!sender.send(kVariant, (*list)->identifier)) return false;
   }
@@ -244,12 +244,14 @@ void forget_kept(const KeptChild* child) {
 }  // namespace
 
 void keep_voices() {
-  if (std::exchange(g_keep, true)) return;
+  // Loaded before there are children: each of them finds it there.
+  if (!espeak() || std::exchange(g_keep, true)) return;
   auto nursery = Nursery::start(prepare_named, answer_request, kMostSecondsOfWork);
   if (nursery) g_nursery = std::move(*nursery);
 }
 
 Result<EspeakResult> run_espeak(const EspeakJob& job) {
+  if (!espeak()) return espeak().error();
   EspeakResult result;
   std::string failure;
   std::size_t total = 0;
@@ -293,6 +295,7 @@ Result<EspeakResult> run_espeak(const EspeakJob& job) {
 }
 
 Result<VoiceLists> read_espeak_voices(const std::string& data_path) {
+  if (!espeak()) return espeak().error();
   VoiceLists lists;
   std::string failure;
   const auto receive = [&](std::uint32_t tag, std::string bytes) {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <future>
 
+#include "tools/formats/common/module.h"
 #include "tools/live/webrtc/detail/gst_peer.h"
 #include "tools/live/webrtc/detail/http.h"
 
@@ -51,12 +52,9 @@ std::unique_ptr<Peer> open(const PeerSettings& settings, Described described) {
   return std::make_unique<GstPeer>(settings, std::move(described));
 }
 
+constexpr Functions kTable = {begin, open, exchange};
+
 }  // namespace
 }  // namespace animeme::webrtc
 
-extern "C" [[gnu::visibility("default")]] const animeme::webrtc::Functions*
-animeme_webrtc_functions() {
-  using namespace animeme::webrtc;
-  static constexpr Functions table = {begin, open, exchange};
-  return &table;
-}
+ANIMEME_MODULE(animeme::webrtc::kTable);

@@ -2,10 +2,10 @@
 //
 // FFmpeg brings 130 shared libraries with it, and loading them takes two thirds of the time of a
 // command that needs none of them. So all calls go by way of functions(), of which there are two:
-// that of the library (late/linked.cpp) is linked with FFmpeg like any other; that of the program
-// (late/linked_absent.cpp) loads animeme_ffmpeg.so (late/module.cpp) with the first call. A
-// function that is missing below does not compile into the program: it would be linked at once
-// again (test Start.LoadsNoFfmpegForText).
+// that of the library (linked.cpp) is linked with FFmpeg like any other; that of the program
+// (tools/app/late/ffmpeg_late.cpp) loads animeme_ffmpeg.so with the first call. A function that is
+// missing below does not compile into the program: it would be linked at once again (test
+// Start.LoadsNoLibraryBeforeItIsNeeded).
 #pragma once
 
 extern "C" {
@@ -136,9 +136,5 @@ inline Functions linked_functions() {
   return {ANIMEME_FFMPEG_FUNCTIONS(ANIMEME_FFMPEG_ADDRESS)};
 #undef ANIMEME_FFMPEG_ADDRESS
 }
-
-/// What the module exports, under this name.
-using ModuleEntry = const Functions* (*)();
-inline constexpr const char* kModuleEntry = "animeme_ffmpeg_functions";
 
 }  // namespace animeme::media::av
