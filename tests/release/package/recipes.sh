@@ -48,14 +48,14 @@ while read -r file; do
   [ "$(echo "$takers" | wc -w)" = 1 ] || fail "$file is in ${takers:-no package}"
 done <"$work/files"
 
-# Scripts parse; those that debian/tests/control names are there, and no others but that for roots without FFmpeg.
+# Scripts parse; those that debian/tests/control names are there, and no others but that for roots without recommended packages.
 for script in "$packaging"/*.sh "$debian"/tests/[a-z]*; do
   case $(basename "$script") in control) continue ;; esac
   [ -x "$script" ] || fail "$script cannot be run"
   case $(head -1 "$script") in *bash) bash -n "$script" ;; *) sh -n "$script" ;; esac
 done
 sed -n 's/^Tests: //p' "$debian/tests/control" | tr -d , | xargs -n1 | sort >"$work/named"
-find "$debian/tests" -type f ! -name control ! -name without_media -printf '%f\n' | sort | diff "$work/named" - ||
+find "$debian/tests" -type f ! -name control ! -name without_recommends -printf '%f\n' | sort | diff "$work/named" - ||
   fail "debian/tests/control names others"
 if command -v dpkg-parsechangelog >/dev/null; then
   dpkg-parsechangelog -l "$debian/changelog" >/dev/null

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Tries packages in a fresh minimal Debian where nothing else is, as an ordinary user: speaks with what `animeme`
-# depends on, then with what it recommends, opens the manual, completes a line, and links a program, imports the module
+# Tries packages in a fresh minimal Debian where nothing else is, as an ordinary user: codes with what `animeme`
+# depends on, speaks with what it recommends, opens the manual, completes a line, and links a program, imports the module
 # of Python if those packages are given. What is run is debian/tests, which autopkgtest runs, too.
 #   tools/release/packaging/clean_root.sh DEB...
 # Packages come from where apt of this machine has its own. Wants mmdebstrap, and to be root or to have user namespaces.
@@ -57,13 +57,13 @@ inside() {
   if has animeme; then
     apt_get install "$(file animeme)"
     say "animeme with what it depends on: $(size)"
-    try speak without_media
+    try codec without_recommends
     # By name, as apt takes them with a package that is installed anew only.
     wanted=$(chroot "$root" dpkg-query -W -f '${Recommends}' animeme | sed 's/([^)]*)//g; s/|[^,]*//g; s/,/ /g')
     # shellcheck disable=SC2086  # words
     apt_get install $wanted
     say "... and recommends: $(size)"
-    try speak media
+    try codec speak media
     apt_get install man-db bash-completion
     try manual completion
   fi
