@@ -36,7 +36,7 @@ TEST(Players, StumbleOverEachOfThese) {
                 ElementsAre(testing::AllOf(StartsWith("line " + line + ": "), HasSubstr(what))))
         << text;
   };
-  one("", "1", "not a header");
+  one("", "1", "there is no header");
   one(kTwo, "1", "not a header");
   one("2.1 a b 25 2\n" + kTwo, "1", "not a header");
   one("2.1 x 29.97 2\n" + kTwo, "1", "'29.97' is not whole");
