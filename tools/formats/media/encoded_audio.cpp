@@ -69,6 +69,10 @@ Result<av::Codec> open_encoder(const AudioSettings& settings, int sample_rate,
     // What it would spend without having looked is far from what it was told.
     if (settings.effort < kAnalysing) av_opt_set(context->priv_data, "vbr", "constrained", 0);
   }
+  if (codec == AudioCodec::aac) {
+    const bool fast = settings.aac_search == AacSearch::fast;
+    av_opt_set(context->priv_data, "aac_coder", fast ? "fast" : "twoloop", 0);
+  }
   context->flags |= AV_CODEC_FLAG_GLOBAL_HEADER | AV_CODEC_FLAG_BITEXACT;
   const int status = avcodec_open2(context.get(), encoder, nullptr);
   if (status < 0) {

@@ -55,6 +55,13 @@ struct EncodedAudio {
   friend bool operator==(const EncodedAudio&, const EncodedAudio&) = default;
 };
 
+/// Search of the AAC encoder for scale factors. Speed and quality of both:
+/// tools/formats/media/README.md, "AAC encoder".
+enum class AacSearch : std::uint8_t {
+  fast,      ///< one pass
+  two_loop,  ///< FFmpeg's default: several passes per frame
+};
+
 /// Encoder settings.
 struct AudioSettings {
   AudioCodec codec = AudioCodec::aac;  ///< aac in mp4, opus for browsers
@@ -66,6 +73,7 @@ struct AudioSettings {
   /// it would be missed by half without that look. A voice of 22 kHz at 40000 bits a second has a
   /// signal to noise ratio of 17.7 dB with 10, 16.7 dB with 5.
   int effort = 10;
+  AacSearch aac_search = AacSearch::fast;  ///< AAC only
 };
 
 /// Sound in, packets out, for sound that is still being made. Movable, not copyable. Same sound in
