@@ -165,9 +165,18 @@ Result<void> Reception::finish() {
 
 void Reception::report() {
   status_.clear();
-  say(live::receive_summary(recorder_, source_.stats(), intervals_));
+  const std::string summary = live::receive_summary(recorder_, source_.stats(), intervals_);
+  if (!summary.empty()) say(summary);
   if (!options_.json) return;
   std::printf("%s\n", live::receive_json(recorder_, source_.stats(), intervals_).c_str());
+}
+
+// "waiting up to 60 s (--wait) for the first packet".
+std::string waiting_text(double wait, const live::PatientSource& source) {
+  std::string text = "waiting ";
+  text += wait > 0 ? format("up to %g s (--wait)", wait) : "until the sender comes (--wait 0)";
+  if (source.waiting_for()) return text + ": " + source.waiting_for()->describe();
+  return wait > 0 ? text + " for the first packet" : text;
 }
 
 Error nothing_came(const ReceiveOptions& options, const Reception& reception,
@@ -215,7 +224,7 @@ Result<int> run(ReceiveOptions& options) {
   }
   if (!opened) return opened.error().in_file(options.source);
   const live::PatientSource& patient = **opened;
-  if (patient.waiting_for()) say("waiting: " + patient.waiting_for()->describe());
+  say(waiting_text(options.wait, patient));
   const std::unique_ptr<media::LiveSource> source = media::make_steady(std::move(*opened));
   const Interrupt interrupt;
   Reception reception(options, *source, std::move(*relay));

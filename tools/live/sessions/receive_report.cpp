@@ -14,11 +14,15 @@ double share_of(const media::IntraInterval& interval) {
   return interval.planes > 0 ? double(interval.usable) / double(interval.planes) : 1;
 }
 
+bool any_plane(const media::RecoveryStats& recovery) {
+  return recovery.usable + recovery.dropped + recovery.lost > 0;
+}
+
 }  // namespace
 
-IntervalShares shares_of(const std::vector<media::IntraInterval>& intervals) {
+std::optional<IntervalShares> shares_of(const std::vector<media::IntraInterval>& intervals) {
+  if (intervals.empty()) return std::nullopt;
   IntervalShares shares;
-  if (intervals.empty()) return shares;
   double sum = 0;
   for (const media::IntraInterval& interval : intervals) {
     const double share = share_of(interval);
@@ -62,27 +66,37 @@ std::string receive_line(double seconds, const media::Recorder& recorder,
 std::string receive_summary(const media::Recorder& recorder, const media::ReceiveStats& stats,
                             const std::vector<media::IntraInterval>& intervals) {
   const media::RecoveryStats& recovery = recorder.recovery();
-  const IntervalShares shares = shares_of(intervals);
-  return receive_advice(stats) +
-         tools::format(
-             "packets: %lld, lost %lld, late %lld, duplicates %lld, reordered %lld; jitter %.2f "
-             "ms\n"
-             "planes: %lld usable, %lld unusable, %.2f %% usable; frozen for %.2f s, longest %.2f "
-             "s\n"
-             "intra intervals: %zu, usable on average %.2f %%, in the worst %.2f %%\n"
-             "face %.2f s, sound %.2f s",
-             (long long)(stats.packets), (long long)(stats.lost), (long long)(stats.late),
-             (long long)(stats.duplicates), (long long)(stats.reordered), 1e3 * stats.jitter,
-             (long long)(recovery.usable), (long long)(recovery.dropped), 100 * recovery.share(),
-             recovery.frozen_seconds, recovery.longest_seconds, intervals.size(), 100 * shares.mean,
-             100 * shares.least, recorder.face_seconds(), recorder.sound_seconds());
+  std::string out = receive_advice(stats);
+  if (stats.packets > 0) {
+    out += tools::format(
+        "packets: %lld, lost %lld, late %lld, duplicates %lld, reordered %lld; jitter %.2f ms\n",
+        (long long)(stats.packets), (long long)(stats.lost), (long long)(stats.late),
+        (long long)(stats.duplicates), (long long)(stats.reordered), 1e3 * stats.jitter);
+  }
+  if (any_plane(recovery)) {
+    out += tools::format(
+        "planes: %lld usable, %lld unusable, %.2f %% usable; frozen for %.2f s, longest %.2f s\n",
+        (long long)(recovery.usable), (long long)(recovery.dropped), 100 * recovery.share(),
+        recovery.frozen_seconds, recovery.longest_seconds);
+  }
+  if (const std::optional<IntervalShares> shares = shares_of(intervals)) {
+    out += tools::format("intra intervals: %zu, usable on average %.2f %%, in the worst %.2f %%\n",
+                         intervals.size(), 100 * shares->mean, 100 * shares->least);
+  }
+  if (any_plane(recovery) || recorder.sound_seconds() > 0) {
+    out += tools::format("face %.2f s, sound %.2f s", recorder.face_seconds(),
+                         recorder.sound_seconds());
+  }
+  while (out.ends_with('\n')) out.pop_back();
+  return out;
 }
 
 std::string receive_json(const media::Recorder& recorder, const media::ReceiveStats& stats,
                          const std::vector<media::IntraInterval>& intervals) {
   using tools::Json;
   const media::RecoveryStats& recovery = recorder.recovery();
-  const IntervalShares shares = shares_of(intervals);
+  const std::optional<IntervalShares> shares = shares_of(intervals);
+  const auto known = [](bool there, double value) { return there ? Json(value) : Json(nullptr); };
   const double scale = recorder.info() ? recorder.info()->timescale : 1;
   Json rows = Json::array();
   for (const media::IntraInterval& interval : intervals) {
@@ -90,28 +104,29 @@ std::string receive_json(const media::Recorder& recorder, const media::ReceiveSt
                     {"planes", interval.planes},
                     {"usable", interval.usable}});
   }
-  const Json json = {{"packets", stats.packets},
-                     {"bytes", stats.bytes},
-                     {"lost", stats.lost},
-                     {"late", stats.late},
-                     {"duplicates", stats.duplicates},
-                     {"reordered", stats.reordered},
-                     {"jitter_ms", 1e3 * stats.jitter},
-                     {"latest_seconds", stats.latest},
-                     {"wait_seconds", stats.wait},
-                     {"sessions", stats.sessions},
-                     {"ignored", stats.foreign},
-                     {"planes_usable", recovery.usable},
-                     {"planes_dropped", recovery.dropped},
-                     {"usable_share", recovery.share()},
-                     {"freezes", recovery.freezes},
-                     {"frozen_seconds", recovery.frozen_seconds},
-                     {"longest_freeze_seconds", recovery.longest_seconds},
-                     {"interval_share_mean", shares.mean},
-                     {"interval_share_least", shares.least},
-                     {"intervals", rows},
-                     {"face_seconds", recorder.face_seconds()},
-                     {"sound_seconds", recorder.sound_seconds()}};
+  const Json json = {
+      {"packets", stats.packets},
+      {"bytes", stats.bytes},
+      {"lost", stats.lost},
+      {"late", stats.late},
+      {"duplicates", stats.duplicates},
+      {"reordered", stats.reordered},
+      {"jitter_ms", known(stats.packets > 0, 1e3 * stats.jitter)},
+      {"latest_seconds", known(stats.packets > 0, stats.latest)},
+      {"wait_seconds", stats.wait},
+      {"sessions", stats.sessions},
+      {"ignored", stats.foreign},
+      {"planes_usable", recovery.usable},
+      {"planes_dropped", recovery.dropped},
+      {"usable_share", known(any_plane(recovery), recovery.share())},
+      {"freezes", recovery.freezes},
+      {"frozen_seconds", recovery.frozen_seconds},
+      {"longest_freeze_seconds", recovery.longest_seconds},
+      {"interval_share_mean", known(shares.has_value(), shares ? shares->mean : 0)},
+      {"interval_share_least", known(shares.has_value(), shares ? shares->least : 0)},
+      {"intervals", rows},
+      {"face_seconds", recorder.face_seconds()},
+      {"sound_seconds", recorder.sound_seconds()}};
   return tools::pretty(json);
 }
 

@@ -2,6 +2,7 @@
 /// Report on a reception: received and lost data.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,14 +10,14 @@
 
 namespace animeme::live {
 
-/// Share of usable planes of the intra intervals.
+/// Share of usable planes of the intra intervals, one interval at least.
 struct IntervalShares {
   double mean = 1,         ///< over all intervals
       least = 1;           ///< of the worst
   std::size_t spoilt = 0;  ///< intervals with a missing plane
 };
-/// 1 and 1 for no intervals.
-IntervalShares shares_of(const std::vector<media::IntraInterval>& intervals);
+/// nullopt: there are no intervals.
+std::optional<IntervalShares> shares_of(const std::vector<media::IntraInterval>& intervals);
 
 /// "5 s: 125 planes, 0 lost, ..." for --stats.
 std::string receive_line(double seconds, const media::Recorder& recorder,
@@ -26,10 +27,12 @@ std::string receive_line(double seconds, const media::Recorder& recorder,
 /// option helps. Usually empty.
 std::string receive_advice(const media::ReceiveStats& stats);
 
-/// The summary, one sentence per line.
+/// The summary, one sentence per line, without figures for what was not received. Empty: nothing
+/// was received.
 std::string receive_summary(const media::Recorder& recorder, const media::ReceiveStats& stats,
                             const std::vector<media::IntraInterval>& intervals);
-/// The same as JSON text, with a row for every interval.
+/// The same as JSON text, with a row for every interval. Shares without a plane or an interval are
+/// null.
 std::string receive_json(const media::Recorder& recorder, const media::ReceiveStats& stats,
                          const std::vector<media::IntraInterval>& intervals);
 

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "fap/text.h"
 #include "tests/formats/media/live/stream_support.h"
 #include "tests/support/random_clip.h"
@@ -155,6 +157,25 @@ TEST(Stream, AServerForEverybodyIsWarnedOfOnce) {
   const auto bad = served("127.0.0.1", {"--allow-origin", "a.example"});
   EXPECT_EQ(bad.exit_code, 2);
   EXPECT_THAT(bad.err, HasSubstr("https://example.org"));
+}
+
+TEST(Receive, NothingHasNoFigures) {
+  const TempDir dir;
+  const std::string url = "rtp://127.0.0.1:" + std::to_string(test::free_ports());
+  const auto silent = animeme({"receive", url, "-o", dir / "x.mp4", "--wait", "0.3", "--json"});
+  EXPECT_EQ(silent.exit_code, 3);
+  EXPECT_THAT(silent.err, testing::StartsWith("waiting up to 0.3 s (--wait)"));
+  EXPECT_THAT(silent.err, HasSubstr("nothing came"));
+  EXPECT_THAT(silent.err, Not(HasSubstr("usable")));
+  EXPECT_THAT(silent.err, Not(HasSubstr("jitter")));
+  const auto report = nlohmann::json::parse(silent.out, nullptr, false);
+  ASSERT_TRUE(report.is_object()) << silent.out;
+  EXPECT_EQ(report["packets"], 0);
+  EXPECT_EQ(report["planes_usable"], 0);
+  for (const char* share : {"usable_share", "interval_share_mean", "interval_share_least"}) {
+    EXPECT_TRUE(report.contains(share)) << share;
+    EXPECT_TRUE(report[share].is_null()) << share;
+  }
 }
 
 TEST(Receive, WhatIsWrongIsSaidInASentence) {
