@@ -1,6 +1,7 @@
 #include "tools/speech/voice/espeak_process.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <iterator>
 #include <list>
@@ -64,7 +65,16 @@ int on_speech(short* samples, int count, espeak_EVENT* events) {
   return good ? 0 : 1;
 }
 
+// espeak-ng opens its audio output even if nothing is played. That calls the PulseAudio client,
+// which creates ~/.config/pulse and may start a server. Without a configuration folder and with a
+// server address that cannot exist it fails at once. This runs in a child process.
+void disable_audio_output() {
+  ::setenv("XDG_CONFIG_HOME", "/dev/null", 1);
+  ::setenv("PULSE_SERVER", "unix:/dev/null", 1);
+}
+
 std::int32_t initialise(const std::string& data_path) {
+  disable_audio_output();
   return (*espeak())->initialize(
       AUDIO_OUTPUT_SYNCHRONOUS, 0, data_path.empty() ? nullptr : data_path.c_str(),
       espeakINITIALIZE_PHONEME_EVENTS | espeakINITIALIZE_PHONEME_IPA | espeakINITIALIZE_DONT_EXIT);
