@@ -10,6 +10,7 @@
 #include "fap/rate_text.h"
 #include "tools/app/commands/bounds.h"
 #include "tools/app/commands/common.h"
+#include "tools/formats/common/bit_rate.h"
 #include "tools/formats/common/json.h"
 #include "tools/formats/common/text.h"
 #include "tools/formats/files/cost.h"
@@ -166,7 +167,7 @@ Outcome count(const Bytes& bytes) {
   outcome.planes = decoded->planes.size();
   for (const fba::Plane& plane : decoded->planes) outcome.intra_planes += plane.intra ? 1 : 0;
   const double seconds = decoded->rate.seconds(double(decoded->planes.back().number + 1));
-  outcome.kbps = double(bytes.size()) * 8e-3 / seconds;
+  outcome.kbps = kbit_per_s(bytes.size(), seconds);
   return outcome;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "codec/syntax/arith.h"
+#include "tools/formats/common/bit_rate.h"
 #include "tools/formats/inspect/body_difference.h"
 
 namespace animeme::inspect {
@@ -295,7 +296,7 @@ BitStatistics BitMeter::measured(std::size_t bytes) const {
   out.intra = plane_bits(m.intra);
   out.predictive = plane_bits(m.predictive);
   out.seconds = m.rate.seconds(double(m.number + 1));
-  out.kbit_per_s = double(total) * 1e-3 / out.seconds;
+  out.kbit_per_s = tools::kbit_per_s(bytes, out.seconds);
   out.peak_kbit_per_s = double(m.window.most(total - m.end)) / std::min(out.seconds, 1.0) * 1e-3;
   return out;
 }

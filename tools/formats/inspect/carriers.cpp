@@ -7,6 +7,7 @@
 #include "codec/decode/fill.h"
 #include "codec/encode/encode.h"
 #include "codec/encode/live.h"
+#include "tools/formats/common/bit_rate.h"
 #include "tools/formats/common/text.h"
 #include "tools/formats/inspect/carriers_internal.h"
 
@@ -174,7 +175,7 @@ void Carried::told() {
 }
 
 double ClipCarriers::kbps(const Carrier& by, bool with_headers) const {
-  return double(by.bytes + (with_headers ? by.bytes_of_headers : 0)) * 8 / seconds / 1000;
+  return tools::kbit_per_s(by.bytes + (with_headers ? by.bytes_of_headers : 0), seconds);
 }
 
 Result<ClipCarriers> measure_carriers(const std::string& name, const fap::Sequence& clip,

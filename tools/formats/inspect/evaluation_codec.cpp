@@ -1,6 +1,7 @@
 #include "codec/decode/decoder.h"
 #include "codec/decode/fill.h"
 #include "dam/signal/fap_signal.h"
+#include "tools/formats/common/bit_rate.h"
 #include "tools/formats/inspect/evaluation.h"
 
 namespace animeme::inspect {
@@ -56,7 +57,7 @@ Result<CodecScore> score_codec(const std::vector<dam::SentencePair>& pairs,
     coded.push_back({std::move(before), *shown});
     total.push_back({pair.recorded, std::move(*shown)});
   }
-  score.kbps = double(score.bytes) * 8e-3 / seconds;
+  score.kbps = tools::kbit_per_s(score.bytes, seconds);
   dam::ScoreOptions options = scoring;
   std::erase_if(options.scale, [](const dam::Control& control) {
     return dam::fap_of_channel(control.name) < fap::kFirstLowLevel;

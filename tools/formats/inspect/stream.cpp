@@ -5,6 +5,7 @@
 
 #include "fap/rate_text.h"
 #include "fap/tables.h"
+#include "tools/formats/common/bit_rate.h"
 #include "tools/formats/common/json.h"
 #include "tools/formats/common/text.h"
 #include "tools/formats/inspect/activity.h"
@@ -208,7 +209,6 @@ void Extent<Frame>::add(const Frame& frame) {
 void StreamExtent::add(const fba::Plane& plane) {
   if (planes++ == 0) rate = plane.rate;
   intra += plane.intra ? 1 : 0;
-  bits += plane.bit_end - plane.bit_begin;
   last = plane.number;
   if (plane.face_settings && !fap_quant) fap_quant = plane.face_settings->fap_quant;
   if (plane.body_settings && !bap_quant) bap_quant = plane.body_settings->bap_quant;
@@ -236,7 +236,7 @@ Json describe_stream(const StreamExtent& stream, const fba::StreamInfo& info,
                {"body_planes", stream.body.frames},
                {"bytes", bytes},
                {"seconds", seconds},
-               {"kbit_per_s", double(stream.bits) * 1e-3 / seconds},
+               {"kbit_per_s", tools::kbit_per_s(bytes, seconds)},
                {"clip", describe_face(stream.face, stream.rate)}};
   if (info.profile_and_level) json["profile_and_level"] = *info.profile_and_level;
   if (stream.bap_quant) json["body"] = describe_body(stream.body, stream.rate);

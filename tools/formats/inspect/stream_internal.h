@@ -37,7 +37,6 @@ struct Extent {
 /// A stream, plane by plane; without what each of them says.
 struct StreamExtent {
   std::size_t planes = 0, intra = 0;
-  std::int64_t bits = 0;                    ///< of the planes
   std::int64_t last = -1;                   ///< number of the last plane
   fap::Rate rate;                           ///< of the first plane
   std::optional<int> fap_quant, bap_quant;  ///< the first ones

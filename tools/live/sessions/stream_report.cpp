@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/formats/common/bit_rate.h"
 #include "tools/formats/common/json.h"
 #include "tools/formats/common/text.h"
 
@@ -12,6 +13,7 @@ namespace {
 
 using tools::format;
 using tools::Json;
+using tools::kbit_per_s;
 
 double rounded(double value, double step = 0.001) { return std::round(value / step) * step; }
 
@@ -56,14 +58,14 @@ void StreamReport::add(const media::LiveUnit& unit) {
 }
 
 double StreamReport::kbps(const Track& track) const {
-  return track.seconds > 0 ? double(track.bytes) * 8e-3 / track.seconds : 0;
+  return kbit_per_s(std::size_t(track.bytes), track.seconds);
 }
 
 std::string StreamReport::line(double now, const Sinks& sinks, const media::Pacer& pacer) {
   const double span = std::max(1e-3, now - last_);
   const media::SendStats stats = sinks.stats();
   const auto rate = [&](std::int64_t bytes, std::int64_t before) {
-    return double(bytes - before) * 8e-3 / span;
+    return kbit_per_s(std::size_t(bytes - before), span);
   };
   std::string text =
       format("%.0f s: face %.1f planes/s %.2f kbit/s", now,
