@@ -49,9 +49,9 @@ TEST_P(Describe, Mediainfo) {
   const Json report = run_json("mediainfo --Output=JSON '" + path_ + "'");
   const Json file = track_of(report, "General");
   EXPECT_EQ(file["Format"], expected_.format);
-  const Json face = track_of(report, "Video");
-  EXPECT_EQ(face["Format"], "MPEG-4 Visual");
-  EXPECT_EQ(face["CodecID"], expected_.codec_id);
+  const Json face = track_of(report, layout_.metadata() ? "Other" : "Video");
+  EXPECT_EQ(face["Format"], layout_.metadata() ? "mp4s-20" : "MPEG-4 Visual");
+  EXPECT_EQ(face["CodecID"], layout_.metadata() ? "mp4s-20" : expected_.codec_id);
   const Json sound = track_of(report, "Audio");
   EXPECT_EQ(sound["Format"], layout_.opus() ? "Opus" : "AAC");
   EXPECT_EQ(sound["SamplingRate"], "48000");
@@ -77,9 +77,10 @@ TEST_P(Describe, Mkvmerge) {
   for (const Json& track : report["tracks"]) {
     tracks += track["type"].get<std::string>() + " " + track["codec"].get<std::string>() + "\n";
   }
-  // In a TS it looks for video and finds none: only the sound is left.
+  // In a TS it looks for video and finds none, and it does not know metadata: only the sound is
+  // left.
   const std::string sound = layout_.opus() ? "audio Opus\n" : "audio AAC\n";
-  EXPECT_EQ(tracks, layout_.ts() ? sound : "video MPEG-4p2\n" + sound);
+  EXPECT_EQ(tracks, layout_.ts() || layout_.metadata() ? sound : "video MPEG-4p2\n" + sound);
 }
 
 INSTANTIATE_TEST_SUITE_P(Layouts, Describe, testing::ValuesIn(names_of(layouts())),

@@ -12,9 +12,10 @@ inline Bytes bytes_of(const BoxFile& file, const MovieSample& sample) {
 }
 
 inline void expect_face(const BoxFile& file, const Movie& movie, const Talk& talk) {
-  const MovieTrack* face = movie.track("vide");
+  const bool video = movie.track("vide") != nullptr;
+  const MovieTrack* face = movie.track(video ? "vide" : "meta");
   ASSERT_NE(face, nullptr);
-  EXPECT_EQ(face->entry, "mp4v");
+  EXPECT_EQ(face->entry, video ? "mp4v" : "mp4s");
   ASSERT_EQ(face->samples.size(), talk.face.units.size());
   for (std::size_t i = 0; i < face->samples.size(); ++i) {
     const fba::AccessUnit& unit = talk.face.units[i];

@@ -45,9 +45,10 @@ TEST_P(Segments, AreOneMovieAndEachBeginsWithASyncSample) {
   for (std::size_t i = 1; i < face.size(); ++i) {
     const Movie part = read_movie(BoxFile(joined({face[0], face[i]})));
     EXPECT_THAT(part.errors, testing::IsEmpty());
-    ASSERT_NE(part.track("vide"), nullptr);
-    ASSERT_FALSE(part.track("vide")->samples.empty());
-    EXPECT_TRUE(part.track("vide")->samples[0].sync) << "segment " << i;
+    const char* handler = layout_.metadata() ? "meta" : "vide";
+    ASSERT_NE(part.track(handler), nullptr);
+    ASSERT_FALSE(part.track(handler)->samples.empty());
+    EXPECT_TRUE(part.track(handler)->samples[0].sync) << "segment " << i;
   }
 }
 
@@ -69,10 +70,9 @@ TEST_P(Segments, FfprobeGivesTheUnits) {
   NEEDS_PROGRAM("ffprobe", "ffmpeg");
   const std::string playlist =
       layout_.extension == ".mpd" ? layout_.name + ".mpd" : layout_.name + "_hls/face.m3u8";
-  const Json said =
-      run_json(here("ffprobe -v fatal -of json -select_streams v -show_packets "
-                    "-show_data '" +
-                    playlist + "'"));
+  const Json said = run_json(here("ffprobe -v fatal -of json -select_streams " +
+                                  std::string(layout_.metadata() ? "d" : "v") +
+                                  " -show_packets -show_data '" + playlist + "'"));
   expect_packets(talk_, layout_, said["packets"]);
 }
 

@@ -86,6 +86,11 @@ struct Layout {
   bool segments() const { return extension == ".m3u8" || extension == ".mpd"; }
   bool fragments() const { return options.fragmented || segments(); }
   bool ts() const { return extension == ".ts"; }
+  /// Its face is timed metadata, not video.
+  bool metadata() const {
+    return (mp4() || segments()) && !options.systems &&
+           options.face_track == media::FaceTrackType::metadata;
+  }
   bool opus() const { return options.audio.codec == media::AudioCodec::opus; }
   /// Samples that a decoder puts out before the sound (tools/formats/media/containers.md,
   /// section 5.1).
@@ -98,13 +103,16 @@ struct Layout {
 };
 
 inline std::vector<Layout> layouts() {
-  std::vector<Layout> all = {
-      {"mp4", ".mp4"},     {"mp4_opus", ".mp4"}, {"fragments", ".mp4"}, {"fragments_opus", ".mp4"},
-      {"systems", ".mp4"}, {"mkv", ".mkv"},      {"mkv_opus", ".mkv"},  {"ts", ".ts"}};
+  std::vector<Layout> all = {{"mp4", ".mp4"},       {"mp4_opus", ".mp4"},
+                             {"fragments", ".mp4"}, {"fragments_opus", ".mp4"},
+                             {"mp4_video", ".mp4"}, {"fragments_video", ".mp4"},
+                             {"systems", ".mp4"},   {"mkv", ".mkv"},
+                             {"mkv_opus", ".mkv"},  {"ts", ".ts"}};
   for (Layout& layout : all) {
     layout.options.fragmented = layout.name.starts_with("fragments");
     layout.options.systems = layout.name == "systems";
     if (layout.name.ends_with("opus")) layout.options.audio.codec = media::AudioCodec::opus;
+    if (layout.name.ends_with("video")) layout.options.face_track = media::FaceTrackType::video;
   }
   return all;
 }
@@ -130,11 +138,12 @@ inline std::vector<Layout> sound_layouts() {
 
 /// Playlists beside folders of segments, a second each.
 inline std::vector<Layout> segment_layouts() {
-  std::vector<Layout> all = {
-      {"hls", ".m3u8"}, {"hls_opus", ".m3u8"}, {"dash", ".mpd"}, {"dash_opus", ".mpd"}};
+  std::vector<Layout> all = {{"hls", ".m3u8"}, {"hls_opus", ".m3u8"}, {"hls_video", ".m3u8"},
+                             {"dash", ".mpd"}, {"dash_opus", ".mpd"}, {"dash_video", ".mpd"}};
   for (Layout& layout : all) {
     layout.options.fragment_seconds = 1;
     if (layout.name.ends_with("opus")) layout.options.audio.codec = media::AudioCodec::opus;
+    if (layout.name.ends_with("video")) layout.options.face_track = media::FaceTrackType::video;
   }
   return all;
 }

@@ -48,6 +48,17 @@ Range gap_during(const fap::Sequence& clip, const dam::Phone& phone) {
 
 constexpr int kClosed = 45;  // FAP units, the threshold of the evaluation
 
+// espeak-ng's sound library would ask PulseAudio, which keeps a cookie there.
+TEST(SpeakFiles, TheHomeFolderStaysEmpty) {
+  const TempDir home, dir;
+  const auto made = test::run_command({"env", "-u", "XDG_CONFIG_HOME", "-u", "XDG_RUNTIME_DIR",
+                                       "-u", "PULSE_SERVER", "HOME=" + home.path().string(),
+                                       std::string(test::kBinaryFolder) + "/bin/animeme", "speak",
+                                       "--text", "Hello world.", "-o", dir / "talk.mp4"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_THAT(home.files(), testing::IsEmpty());
+}
+
 class SpeakText : public testing::TestWithParam<std::pair<const char*, const char*>> {};
 
 TEST_P(SpeakText, OpensOnVowelsClosesOnBilabialsAndRestsAtTheEnds) {
@@ -128,13 +139,33 @@ TEST(Speak, Mp4HoldsTheVeryFapsAfterQuantisation) {
   EXPECT_EQ(animeme({"compare", dir / "a.fap", dir / "b.mp4"}).exit_code, 0);
 }
 
+// Programs that convert leave the face alone, also its first frames.
+TEST(Speak, FfmpegConvertsTheSound) {
+  if (!test::has_program("ffmpeg")) GTEST_SKIP() << "ffmpeg is not installed";
+  const TempDir dir;
+  ASSERT_EQ(animeme({"speak", "--text", "Hello", "-o", dir / "a.mp4"}).exit_code, 0);
+  for (const std::vector<std::string>& conversion :
+       {std::vector<std::string>{"-b:a", "40k", dir / "out.webm"}, {"-c", "copy", dir / "out.mkv"}}) {
+    std::vector<std::string> command = {"ffmpeg", "-nostdin", "-v", "warning", "-i", dir / "a.mp4"};
+    command.insert(command.end(), conversion.begin(), conversion.end());
+    const auto converted = test::run_command(command);
+    EXPECT_EQ(converted.exit_code, 0) << converted.err;
+    EXPECT_EQ(converted.err, "");
+  }
+}
+
+// As 14496-14 puts it.
 TEST(Speak, FfprobeSeesAacAndSimpleFaceAnimation) {
   if (!test::has_program("ffprobe"))
     GTEST_SKIP() << "ffprobe (Debian package ffmpeg) is not installed";
   const TempDir dir;
   ASSERT_EQ(animeme({"speak", "--text", "Hello", "-o", dir / "a.mp4"}).exit_code, 0);
+  ASSERT_EQ(animeme({"mux", dir / "a.mp4", dir / "a.mp4", "--audio-codec", "copy", "--video-track",
+                     "-o", dir / "b.mp4"})
+                .exit_code,
+            0);
   const auto probe = test::run_command(
-      {"ffprobe", "-v", "quiet", "-print_format", "json", "-show_streams", dir / "a.mp4"});
+      {"ffprobe", "-v", "quiet", "-print_format", "json", "-show_streams", dir / "b.mp4"});
   ASSERT_EQ(probe.exit_code, 0) << probe.err;
   const auto json = nlohmann::json::parse(probe.out);
   bool aac = false;

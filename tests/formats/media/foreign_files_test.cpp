@@ -15,8 +15,7 @@ using test::Bytes;
 // Position of the content of the face's esds in an mp4 of ours.
 std::size_t face_esds(const Bytes& file) {
   const std::string text(file.begin(), file.end());
-  const std::size_t entry = text.find("mp4v", text.find("stsd"));
-  return text.find("esds", entry) + 4;
+  return text.find("esds", text.find("stsd")) + 4;
 }
 
 void append(Bytes& out, const Bytes& more) { out.insert(out.end(), more.begin(), more.end()); }
@@ -43,11 +42,16 @@ Bytes esds(const Bytes& config, int length_bytes) {
   return out;
 }
 
-class ForeignMp4 : public testing::Test {
+class ForeignMp4 : public testing::TestWithParam<FaceTrackType> {
  protected:
+  void write(const std::string& path, const fba::AccessUnits& face) const {
+    MuxOptions options;
+    options.face_track = GetParam();
+    EXPECT_TRUE(write_container(path, {.face = &face}, options));
+  }
   Bytes file_with(const fba::AccessUnits& face, const Bytes& content) {
     const test::TempDir dir;
-    EXPECT_TRUE(write_container(dir.file("a.mp4"), {.face = &face}));
+    write(dir.file("a.mp4"), face);
     Bytes file = test::read_bytes(dir.file("a.mp4"));
     const std::size_t at = face_esds(file);
     const Bytes whole = esds(face.config, 4);
@@ -61,7 +65,7 @@ class ForeignMp4 : public testing::Test {
   fba::AccessUnits face_ = test::make_face(60);
 };
 
-TEST_F(ForeignMp4, DescriptorLengthsOfOneToFourBytes) {
+TEST_P(ForeignMp4, DescriptorLengthsOfOneToFourBytes) {
   for (int bytes = 1; bytes <= 4; ++bytes) {
     const Result<Container> back = read_container(file_with(face_, esds(face_.config, bytes)));
     ASSERT_TRUE(back) << bytes << back.error().describe();
@@ -69,7 +73,7 @@ TEST_F(ForeignMp4, DescriptorLengthsOfOneToFourBytes) {
   }
 }
 
-TEST_F(ForeignMp4, ShortConfigurationWithoutIdentifier) {
+TEST_P(ForeignMp4, ShortConfigurationWithoutIdentifier) {
   const Bytes config = {0, 0, 1, 0xB0, 0x62, 0, 0, 1, 0xB5, 0x23};
   const Result<Container> back = read_container(file_with(face_, esds(config, 4)));
   ASSERT_TRUE(back) << back.error().describe();
@@ -77,7 +81,7 @@ TEST_F(ForeignMp4, ShortConfigurationWithoutIdentifier) {
   EXPECT_EQ(back->visual_profile, 0x62);
 }
 
-TEST_F(ForeignMp4, NoConfigurationAtAll) {
+TEST_P(ForeignMp4, NoConfigurationAtAll) {
   const Result<Container> back = read_container(file_with(face_, esds({}, 4)));
   ASSERT_TRUE(back) << back.error().describe();
   EXPECT_EQ(back->face.units, face_.units);
@@ -85,7 +89,7 @@ TEST_F(ForeignMp4, NoConfigurationAtAll) {
   EXPECT_THAT(back->warnings, testing::Contains(testing::HasSubstr("configuration")));
 }
 
-TEST_F(ForeignMp4, ConfigurationInBandOnly) {
+TEST_P(ForeignMp4, ConfigurationInBandOnly) {
   fba::AccessUnits in_band = face_;
   for (fba::AccessUnit& unit : in_band.units) {
     if (unit.intra) unit.bytes.insert(unit.bytes.begin(), face_.config.begin(), face_.config.end());
@@ -96,18 +100,18 @@ TEST_F(ForeignMp4, ConfigurationInBandOnly) {
   EXPECT_THAT(back->warnings, testing::IsEmpty());
 }
 
-TEST_F(ForeignMp4, UserDataInTheConfigurationIsKept) {
+TEST_P(ForeignMp4, UserDataInTheConfigurationIsKept) {
   Bytes config = face_.config;
   append(config, {0, 0, 1, 0xB2, 'h', 'i'});
   face_.config = config;
   const test::TempDir dir;
-  ASSERT_TRUE(write_container(dir.file("a.mp4"), {.face = &face_}));
+  write(dir.file("a.mp4"), face_);
   const Result<Container> back = read_container(dir.file("a.mp4"));
   ASSERT_TRUE(back) << back.error().describe();
   EXPECT_TRUE(back->face == face_);
 }
 
-TEST_F(ForeignMp4, OtherVisualObjectsAreNoFace) {
+TEST_P(ForeignMp4, OtherVisualObjectsAreNoFace) {
   for (const int type : {1, 2, 3, 5}) {  // video, still texture, mesh, 3-D mesh
     Bytes config = face_.config;
     config[10] = std::uint8_t(type << 4 | 7);
@@ -117,13 +121,20 @@ TEST_F(ForeignMp4, OtherVisualObjectsAreNoFace) {
   }
 }
 
-TEST_F(ForeignMp4, ContentsBehindTheDataAreFoundToo) {
+TEST_P(ForeignMp4, ContentsBehindTheDataAreFoundToo) {
   const test::TempDir dir;
-  ASSERT_TRUE(write_container(dir.file("a.mp4"), {.face = &face_}, {.faststart = false}));
+  const MuxOptions options{.face_track = GetParam(), .faststart = false};
+  ASSERT_TRUE(write_container(dir.file("a.mp4"), {.face = &face_}, options));
   const Result<Container> back = read_container(dir.file("a.mp4"));
   ASSERT_TRUE(back) << back.error().describe();
   EXPECT_TRUE(back->face == face_);
 }
+
+INSTANTIATE_TEST_SUITE_P(Types, ForeignMp4,
+                         testing::Values(FaceTrackType::metadata, FaceTrackType::video),
+                         [](const auto& value) {
+                           return value.param == FaceTrackType::video ? "video" : "metadata";
+                         });
 
 // A transport stream by hand: one PES packet for each of `parts`.
 struct Part {

@@ -112,6 +112,7 @@ inline Bytes find_box(const Bytes& file, const std::string& path) {
       std::size_t skip = 8;
       if (want == "stsd") skip += 8;
       if (want == "mp4v") skip += 78;
+      if (want == "mp4s") skip += 8;
       if (want == "mp4a") skip += 28;
       if (path.size() <= 4) skip = 8;
       const Bytes content(file.begin() + std::ptrdiff_t(at + skip),

@@ -96,7 +96,7 @@ TEST_F(MuxMp4, SkippedFramesAndALateStartKeepTheirTimes) {
 TEST_F(MuxMp4, EsdsHasTheBytesOfTheSpecification) {
   face_.units[0].bytes.resize(1000, 0x55);
   write();
-  Bytes esds = test::find_box(test::read_bytes(path_), kSampleTable + "stsd/mp4v/esds");
+  Bytes esds = test::find_box(test::read_bytes(path_), kSampleTable + "stsd/mp4s/esds");
   ASSERT_EQ(esds.size(), 0x3Cu - 8);
   // bufferSizeDB, maxBitrate and avgBitrate depend on the data.
   EXPECT_EQ(Bytes(esds.begin() + 19, esds.begin() + 22), (Bytes{0, 0x03, 0xE8}));
@@ -188,7 +188,7 @@ TEST_F(MuxMp4, BrandsAndContentsFirst) {
   const Bytes other = test::read_bytes(path_);
   const std::string tail(other.begin(), other.end());
   EXPECT_GT(tail.find("moov"), tail.find("mdat"));
-  EXPECT_EQ(test::find_box(other, kSampleTable + "stsd/mp4v/esds")[10], 0) << "ES_ID";
+  EXPECT_EQ(test::find_box(other, kSampleTable + "stsd/mp4s/esds")[10], 0) << "ES_ID";
 }
 
 TEST_F(MuxMp4, SameInputGivesSameBytes) {
@@ -225,9 +225,90 @@ TEST_F(MuxMp4, FaceAloneAndSoundAlone) {
   EXPECT_DOUBLE_EQ(info->duration, 4.0);
 }
 
+TEST_F(MuxMp4, FaceIsMetadataOrVideo) {
+  for (const FaceTrackType type : {FaceTrackType::metadata, FaceTrackType::video}) {
+    const bool metadata = type == FaceTrackType::metadata;
+    for (const bool fragmented : {false, true}) {
+      for (const bool faststart : {false, true}) {
+        MuxOptions options;
+        options.face_track = type;
+        options.fragmented = fragmented;
+        options.faststart = faststart;
+        write(options);
+        SCOPED_TRACE(testing::Message() << metadata << fragmented << faststart);
+        const Bytes file = test::read_bytes(path_);
+        const Bytes handler = test::find_box(file, "moov/trak/mdia/hdlr");
+        ASSERT_GE(handler.size(), 12u);
+        EXPECT_EQ(std::string(handler.begin() + 8, handler.begin() + 12),
+                  metadata ? "meta" : "vide");
+        const std::string media = "moov/trak/mdia/minf/";
+        EXPECT_EQ(test::find_box(file, media + "nmhd").empty(), !metadata);
+        EXPECT_EQ(test::find_box(file, media + "vmhd").empty(), metadata);
+        EXPECT_EQ(test::find_box(file, kSampleTable + "stsd/mp4s/esds").empty(), !metadata);
+        EXPECT_EQ(test::find_box(file, kSampleTable + "stsd/mp4v/esds").empty(), metadata);
+        const Result<Container> back = read_container(path_);
+        ASSERT_TRUE(back) << back.error().describe();
+        EXPECT_EQ(back->face, face_);
+        EXPECT_EQ(back->visual_profile, 0x61);
+        EXPECT_THAT(back->warnings, testing::IsEmpty());
+        const Result<ContainerInfo> info = probe(path_);
+        ASSERT_TRUE(info) << info.error().describe();
+        ASSERT_EQ(info->tracks.size(), 2u);
+        EXPECT_EQ(info->tracks[0].kind, TrackKind::face);
+        EXPECT_EQ(info->tracks[0].face_config, face_.config);
+        EXPECT_EQ(info->tracks[0].visual_profile, 0x61);
+      }
+    }
+  }
+}
+
+// What is broken in the descriptors of a metadata face costs its configuration at most.
+TEST_F(MuxMp4, BrokenDescriptorsOfMetadataAreNoFace) {
+  write();
+  const Bytes file = test::read_bytes(path_);
+  const std::string text(file.begin(), file.end());
+  const std::size_t esds = text.find("esds");
+  ASSERT_NE(esds, std::string::npos);
+  for (std::size_t at = esds - 4; at < esds + 60; ++at) {
+    for (const int value : {0, 1, 0x7F, 0x80, 0xFF}) {
+      Bytes broken = file;
+      broken[at] = std::uint8_t(value);
+      const Result<Container> back = read_container(broken);
+      if (!back) continue;
+      EXPECT_EQ(back->face.units.size(), face_.units.size()) << at << " " << value;
+    }
+  }
+}
+
+TEST_F(MuxMp4, FfmpegConvertsTheSoundAndLeavesTheFace) {
+  if (!test::has_program("ffmpeg")) GTEST_SKIP() << "ffmpeg is not installed";
+  for (const bool fragmented : {false, true}) {
+    MuxOptions options;
+    options.fragmented = fragmented;
+    write(options);
+    for (const char* conversion : {"-c:a libopus -b:a 40k out.webm", "-c copy out.mkv",
+                                   "-c copy out.mp4", "-c copy out.mov", "out.wav"}) {
+      int status = -1;
+      const std::string said =
+          test::run("cd '" + dir_.path().string() + "' && ffmpeg -nostdin -y -v warning -i '" +
+                        path_ + "' " + conversion + " 2>&1",
+                    &status);
+      EXPECT_EQ(status, 0) << conversion;
+      EXPECT_EQ(said, "") << conversion;
+    }
+  }
+}
+
 TEST_F(MuxMp4, FfprobeSeesTheSame) {
   if (!test::has_program("ffprobe")) GTEST_SKIP() << "ffprobe is not installed";
   write();
+  EXPECT_EQ(test::run("ffprobe -v error -show_entries stream=codec_type,codec_tag_string -of "
+                      "csv=p=0 " +
+                      path_ + " 2>&1"),
+            "data,mp4s\naudio,mp4a\n");
+  MuxOptions video;
+  video.face_track = FaceTrackType::video;
+  write(video);
   const std::string streams =
       test::run("ffprobe -v quiet -show_entries stream=codec_name,profile -of csv=p=0 " + path_);
   EXPECT_EQ(streams, "mpeg4,Simple Face Animation Profile\naac,LC\n");

@@ -110,6 +110,34 @@ TEST_P(TextTracks, AreTheLastTracksWithNameAndLanguage) {
   EXPECT_NEAR(info->duration, 4.0, 0.05) << "not longer than the sound";
 }
 
+TEST_P(TextTracks, AsMetadataTheyAreTheSameToUsAndNothingToFfmpeg) {
+  if (is_mkv()) GTEST_SKIP() << "there they are always subtitles";
+  write();
+  const auto subtitles = read();
+  for (const bool fragmented : {false, true}) {
+    write({.text_track = TextTrackType::metadata, .fragmented = fragmented});
+    expect_equal(read(), subtitles, 1e-6);
+    EXPECT_EQ(read()[0].language, "deu");
+    const auto info = probe(path_);
+    ASSERT_TRUE(info) << info.error().describe();
+    ASSERT_EQ(info->tracks.size(), 4u);
+    EXPECT_EQ(info->tracks[2].kind, TrackKind::text);
+    EXPECT_EQ(info->tracks[2].name, "words");
+    EXPECT_EQ(info->tracks[3].language, "zxx");
+    const auto back = read_container(path_);
+    ASSERT_TRUE(back) << back.error().describe();
+    EXPECT_EQ(back->face, face_);
+    if (!test::has_program("ffmpeg")) continue;
+    int status = -1;
+    const std::string copied = dir_.file("copy.mkv");
+    EXPECT_EQ(
+        test::run("ffmpeg -nostdin -y -v warning -i '" + path_ + "' -c copy '" + copied + "' 2>&1",
+                  &status),
+        "");
+    EXPECT_EQ(status, 0);
+  }
+}
+
 TEST_P(TextTracks, AreSubtitlesToFfmpeg) {
   if (!test::has_program("ffprobe")) GTEST_SKIP() << "ffprobe is not installed";
   write();

@@ -7,6 +7,7 @@
 
 #include "codec/encode/encode.h"
 #include "tools/app/commands/interrupt.h"
+#include "tools/formats/common/bit_rate.h"
 #include "tools/formats/common/text.h"
 #include "tools/formats/files/cost.h"
 #include "tools/formats/media/mux.h"
@@ -77,6 +78,12 @@ void add_sound_options(CLI::App& app, SoundSettings& settings, bool copy) {
       ->check(between(6000, 320000));
 }
 
+void add_subtitles_option(CLI::App& app, bool& subtitles) {
+  app.add_flag("--subtitles", subtitles,
+               "mp4: words and phones as subtitles that players list, as in .mkv and .m3u8; ffmpeg "
+               "then copies the file to .mkv with -c:s srt only");
+}
+
 media::AudioSettings audio_settings(const SoundSettings& settings, const std::string& path) {
   media::AudioSettings audio{media::usual_codec(path), settings.bit_rate};
   if (settings.codec == "aac") audio.codec = media::AudioCodec::aac;
@@ -92,8 +99,6 @@ std::string summary(const media::MuxInput& input, const media::MuxOptions& optio
   std::string text = ": ";
   if (input.face != nullptr) {
     const fba::AccessUnits& face = *input.face;
-    std::size_t bytes = 0;
-    for (const fba::AccessUnit& unit : face.units) bytes += unit.bytes.size();
     const fba::AccessUnit& last = face.units.back();
     const double seconds = double(last.time + last.duration) / face.timescale;
     if (sound_seconds > 0 && std::abs(sound_seconds - seconds) > 1.0) {
@@ -101,7 +106,7 @@ std::string summary(const media::MuxInput& input, const media::MuxOptions& optio
            seconds_text(sound_seconds));
     }
     text += format("face %zu planes, %.2f s, %.2f kbit/s", face.units.size(), seconds,
-                   double(bytes) * 8e-3 / seconds);
+                   kbit_per_s(fba::join_access_units(face).size(), seconds));
   }
   if (sound_seconds > 0) {
     text += ", sound " + seconds_text(sound_seconds);

@@ -44,6 +44,9 @@ struct SoundSettings {
 /// Adds --audio-codec and --audio-bitrate; with `copy`, sound may also be taken as it is.
 void add_sound_options(CLI::App& app, SoundSettings& settings, bool copy);
 
+/// Adds --subtitles.
+void add_subtitles_option(CLI::App& app, bool& subtitles);
+
 /// For a container of this name.
 media::AudioSettings audio_settings(const SoundSettings& settings, const std::string& path);
 

@@ -22,6 +22,8 @@ struct MuxOptions {
   StreamSettings stream;
   std::string preview;
   bool copy = false;
+  bool video_track = false;
+  bool subtitles = false;
   SoundSettings sound;
   media::MuxOptions mux;
 };
@@ -104,6 +106,8 @@ Result<int> run(MuxOptions options) {
   }
   if (!sound->coded && !sound->samples) input.audio_file = &options.audio;
   options.mux.audio = audio_settings(options.sound, options.output);
+  if (!options.subtitles) options.mux.text_track = media::TextTrackType::metadata;
+  if (options.video_track) options.mux.face_track = media::FaceTrackType::video;
   Result<int> written = write_media(options.output, input, options.mux);
   if (!written || *written != kOk || options.preview.empty()) return written;
   return write_preview(options.preview, *units, input);
@@ -139,6 +143,12 @@ void add_options(CLI::App& app, MuxOptions& options) {
   app.add_flag("--systems", options.mux.systems,
                "mp4: add the scene and object streams of a complete MPEG-4 Systems presentation")
       ->excludes(fragmented);
+  app.add_flag(
+      "--video-track", options.video_track,
+      "mp4, HLS, DASH: the face as a video track (handler vide, entry mp4v), where readers "
+      "of MPEG-4 look for it; programs that convert take it for a film that they cannot "
+      "decode. Without: as timed metadata, which they leave alone");
+  add_subtitles_option(app, options.subtitles);
   add_preview_option(app, options.preview);
 }
 

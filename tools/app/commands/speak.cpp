@@ -17,6 +17,7 @@
 #include "tools/app/commands/motion_options.h"
 #include "tools/app/commands/preview.h"
 #include "tools/app/commands/spoken_options.h"
+#include "tools/formats/common/bit_rate.h"
 #include "tools/formats/common/json.h"
 #include "tools/formats/common/text.h"
 #include "tools/formats/exchange/arkit.h"
@@ -44,6 +45,7 @@ struct SpeakOptions {
   bool exact = false;
   std::string visemes;
   bool no_words = false;
+  bool subtitles = false;
   bool language_told = false;
   std::uint64_t seed = 1;
   bool json = false;
@@ -127,7 +129,7 @@ Result<int> write_result(const SpeakOptions& options, const fap::Sequence& clip,
     if (auto done = write_file(options.output, *stream); !done) return done.error();
     say(options.output + ": " + std::to_string(clip.frames.size()) + " planes, " +
         std::to_string(stream->size()) + " bytes, " + seconds_text(clip.duration()) +
-        format(", %.2f kbit/s", double(stream->size()) * 8e-3 / clip.duration()));
+        format(", %.2f kbit/s", kbit_per_s(stream->size(), clip.duration())));
     return kOk;
   }
   Result<fba::AccessUnits> units = access_units({clip, {}}, options.stream);
@@ -136,6 +138,7 @@ Result<int> write_result(const SpeakOptions& options, const fap::Sequence& clip,
   if (audio == nullptr) warn("there is no recorded voice (--audio), the file will be silent");
   media::MuxOptions mux;
   mux.audio = audio_settings(options.sound, options.output);
+  if (!options.subtitles) mux.text_track = media::TextTrackType::metadata;
   std::vector<media::TextTrack> texts;
   if (!options.no_words && media::takes_text(options.output)) {
     texts = speech::carried_texts(spoken.script, language_of(options, spoken));
@@ -347,8 +350,9 @@ void add_options(CLI::App& app, SpeakOptions& options) {
       ->option_text("PLACE")
       ->check(CLI::IsMember({"instead", "beside"}));
   app.add_flag("--no-words", options.no_words,
-               "No words and phones in .mp4, .mkv, .m3u8, where they are subtitles to players and "
-               "view, plot, export, demux find them");
+               "No words and phones in .mp4, .mkv, .m3u8, where view, plot, export and demux find "
+               "them");
+  add_subtitles_option(app, options.subtitles);
   app.get_option("--lang")->each([&options](const std::string&) { options.language_told = true; });
   add_exact_option(app, options.exact);
   app.add_option("--seed", options.seed, "Other times of blinks and another sway of the head")

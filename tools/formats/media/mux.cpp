@@ -156,7 +156,8 @@ Result<MuxResult> write_streams(const std::string& path, const FileType& type,
   if (auto finished = muxer.finish(); !finished) return finished.error();
   if (type.is_mp4()) {
     auto completed = complete_mp4(
-        path, options.faststart || options.fragmented ? Layout::indexed : Layout::as_written);
+        path, options.faststart || options.fragmented ? Layout::indexed : Layout::as_written,
+        {options.face_track, options.text_track});
     if (!completed) return completed.error();
   }
   if (type.is_ts()) {

@@ -39,11 +39,31 @@ struct MuxInput {
   /// presentations.
   const EncodedVideo* video = nullptr;
   /// Text tracks, the last ones of the file, in this order; nullptr: none. Players do not show them
-  /// by default. For files of takes_text(), not for Systems presentations. Cleaned by clean_text().
+  /// by default; see also MuxOptions::text_track. For files of takes_text(), not for Systems
+  /// presentations. Cleaned by clean_text().
   const std::vector<TextTrack>* texts = nullptr;
   /// Visual profile and level for the file's own table of contents (mp4 `iods`): 0x61..0x64.
   /// 0: as in the face's configuration, 0x61 if that has none.
   std::uint8_t visual_profile = 0;
+};
+
+/// Type of the face track in mp4, HLS and DASH.
+enum class FaceTrackType : std::uint8_t {
+  /// Timed metadata: handler `meta`, sample entry `mp4s`. Players and converters skip it.
+  metadata,
+  /// MPEG-4 video, as ISO/IEC 14496-14 specifies: handler `vide`, sample entry `mp4v`, for MPEG-4
+  /// readers that expect it. FFmpeg and GStreamer try to decode it as video and fail.
+  video,
+};
+
+/// Type of the text tracks in mp4.
+enum class TextTrackType : std::uint8_t {
+  /// 3GPP timed text, sample entry `tx3g`: players list it. The ffmpeg program cannot copy it to
+  /// Matroska: `-c copy out.mkv` needs `-c:s srt` or `-sn` as well.
+  subtitles,
+  /// The same samples as timed metadata, sample entry `mett`: read_text_tracks() reads it, players
+  /// do not list it.
+  metadata,
 };
 
 /// How a container is written.
@@ -51,6 +71,9 @@ struct MuxOptions {
   AudioSettings audio;  ///< how MuxInput::audio or MuxInput::audio_file is coded
   /// Receives one sentence for each anomaly of MuxInput::audio_file; nullptr: none.
   std::vector<std::string>* warnings = nullptr;
+  /// mp4, HLS, DASH: type of the face track. A Systems presentation always has a video track.
+  FaceTrackType face_track = FaceTrackType::metadata;
+  TextTrackType text_track = TextTrackType::subtitles;  ///< mp4: type of the text tracks
   /// mp4: moov before mdat, so that a player can start while it loads.
   bool faststart = true;
   /// mp4: self-contained fragments, so that a reader can start while the file is still being
@@ -87,9 +110,9 @@ struct MuxResult {
 /// AAC, else AAC.
 AudioCodec usual_codec(const std::string& path);
 
-/// MPEG-4 file: brand mp42, `iods` with profile bytes and tracks, face as handler `vide`, entry
-/// `mp4v`, with `esds` (object type 0x20, ES_ID 0, bufferSizeDB and maximum bit rate from the
-/// data) and sync table; exact media time scale (times a whole factor if it is below 10000);
+/// MPEG-4 file: brand mp42, `iods` with profile bytes and tracks, face as MuxOptions::face_track
+/// says, with `esds` (object type 0x20, ES_ID 0, bufferSizeDB and maximum bit rate from the data)
+/// and sync table; exact media time scale (times a whole factor if it is below 10000);
 /// priming of the sound in the edit list, so sound and face agree to the sample. A sample rate
 /// that the codec lacks is resampled (see AudioEncoder).
 /// Errors: invalid_argument (nothing to write; no units; configuration not of a face; an empty unit

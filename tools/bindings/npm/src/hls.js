@@ -35,7 +35,7 @@ export function readPlaylist(text, url) {
         continue;
       }
       // A face without a sound is the variant itself.
-      if (variant.CODECS?.startsWith('mp4v')) out.face ??= address;
+      if (/^mp4[sv]\.20/.test(variant.CODECS ?? '')) out.face ??= address;
       else if (!out.sound) [out.sound, out.codecs] = [address, variant.CODECS];
       variant = null;
     }

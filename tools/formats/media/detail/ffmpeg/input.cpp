@@ -77,15 +77,17 @@ Result<void> Input::start(const std::string& hint, const char* formats) {
     return make_error(Code::unsupported,
                       "a raw FBA stream, not a container; decode or mux it as it is");
   }
-  Result<void> sound = check_mp4();
-  if (!sound) return sound;
+  if (auto looked = look_at_boxes(); !looked) return looked;
   context_->pb = io_.get();
   context_->io_open = refuse_open;
   av::Options options;
   options.set("protocol_whitelist", std::string("none"));  // for demuxers that open others
   if (formats != nullptr) options.set("format_whitelist", std::string(formats));
   const int status = avformat_open_input(&context_, hint.c_str(), nullptr, options.get());
-  if (status >= 0) return {};
+  if (status >= 0) {
+    reveal_metadata();
+    return {};
+  }
   if (formats != nullptr && status == AVERROR(EINVAL)) {
     return make_error(Code::unsupported,
                       "this format cannot carry a face; give an mp4, mkv, ts or nut file");
@@ -102,15 +104,38 @@ bool Input::holds_raw_stream() {
   return count > 0 && looks_like_raw_stream(std::span(head).first(std::size_t(count)));
 }
 
-Result<void> Input::check_mp4() {
+Result<void> Input::look_at_boxes() {
   if (size_ < 0) return {};
-  Result<void> checked = check_fragmented_mp4(
+  Result<std::vector<MetadataTrack>> tracks = look_at_mp4(
       std::uint64_t(size_), [this](std::uint64_t offset, std::span<std::uint8_t> buffer) {
         return seek_to(std::int64_t(offset), SEEK_SET) >= 0 &&
                read_some(buffer.data(), int(buffer.size())) == int(buffer.size());
       });
   seek_to(0, SEEK_SET);
-  return checked;
+  if (!tracks) return tracks.error();
+  metadata_ = std::move(*tracks);
+  return {};
+}
+
+// libavformat calls these tracks data without a codec, and reads no configuration.
+void Input::reveal_metadata() {
+  for (unsigned i = 0; i < context_->nb_streams; ++i) {
+    const AVStream& stream = *context_->streams[i];
+    AVCodecParameters& parameters = *stream.codecpar;
+    if (parameters.codec_type != AVMEDIA_TYPE_DATA || parameters.codec_id != AV_CODEC_ID_NONE) {
+      continue;
+    }
+    // Of a pipe nothing is known; the first packet tells.
+    if (size_ < 0 && parameters.codec_tag == MKTAG('m', 'p', '4', 's')) {
+      parameters.codec_id = AV_CODEC_ID_BIN_DATA;
+    }
+    for (const MetadataTrack& track : metadata_) {
+      if (std::int64_t(track.id) != stream.id) continue;
+      if (!track.config.empty() && !av::set_extradata(parameters, track.config)) continue;
+      parameters.codec_type = track.face ? AVMEDIA_TYPE_VIDEO : AVMEDIA_TYPE_SUBTITLE;
+      parameters.codec_id = track.face ? AV_CODEC_ID_MPEG4 : AV_CODEC_ID_MOV_TEXT;
+    }
+  }
 }
 
 Input::~Input() {

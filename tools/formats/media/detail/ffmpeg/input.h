@@ -7,12 +7,15 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "tools/formats/media/detail/ffmpeg/ffmpeg.h"
+#include "tools/formats/media/detail/mp4/metadata_tracks.h"
 
 namespace animeme::media {
 
-/// An open AVFormatContext with its own reader beneath. Not movable: FFmpeg keeps its address.
+/// An open AVFormatContext with its own reader beneath. Faces and texts that are timed metadata in
+/// an mp4 look like MPEG-4 video and subtitles in it. Not movable: FFmpeg keeps its address.
 class Input {
  public:
   /// `formats`: libavformat names, comma separated, that are let in; nullptr: all.
@@ -39,7 +42,8 @@ class Input {
   Input() = default;
   Result<void> start(const std::string& hint, const char* formats);
   bool holds_raw_stream();
-  Result<void> check_mp4();
+  Result<void> look_at_boxes();
+  void reveal_metadata();
   static int read(void* self, std::uint8_t* buffer, int size);
   static std::int64_t seek(void* self, std::int64_t offset, int whence);
   std::int64_t seek_to(std::int64_t offset, int whence);
@@ -51,6 +55,7 @@ class Input {
   std::int64_t size_ = -1;     // -1: a pipe
   std::int64_t budget_ = 0;
   bool exhausted_ = false;
+  std::vector<MetadataTrack> metadata_;
   av::Io io_;
   AVFormatContext* context_ = nullptr;
 };

@@ -45,6 +45,21 @@ std::size_t for_each_box(Bytes bytes, std::size_t begin, std::size_t end, const 
   return at;
 }
 
+/// The first box of a type in another; begin 0: there is none.
+inline Box find_box(Bytes bytes, const Box& parent, std::string_view type) {
+  Box found;
+  for_each_box(bytes, parent.begin, parent.end, [&](const Box& box) {
+    if (found.begin == 0 && box.type == type) found = box;
+  });
+  return found;
+}
+
+/// Fields of sample entries behind the box header, in front of boxes: any, visual, of sound
+/// (version 0).
+inline constexpr std::size_t kPlainFields = 8, kVisualFields = 78, kAudioFields = 28;
+
+inline constexpr std::uint8_t kEsDescriptor = 3;  ///< tag of a descriptor in esds
+
 /// Number of a track by its header; 0: there is none.
 inline std::uint32_t track_id(Bytes moov, const Box& trak) {
   std::uint32_t id = 0;

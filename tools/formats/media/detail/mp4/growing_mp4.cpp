@@ -19,15 +19,6 @@ constexpr std::size_t kFullBoxHeader = 4;  // version and flags, in front of the
 constexpr std::array<std::uint8_t, 4> kFree = {'f', 'r', 'e', 'e'};
 constexpr std::array<std::uint8_t, 4> kFragment = {'m', 'o', 'o', 'f'};
 
-/// The first box of a type in [begin, end); begin 0: there is none.
-Box find_box(Bytes bytes, std::size_t begin, std::size_t end, std::string_view type) {
-  Box found;
-  for_each_box(bytes, begin, end, [&](const Box& box) {
-    if (found.begin == 0 && box.type == type) found = box;
-  });
-  return found;
-}
-
 }  // namespace
 
 GrowingMp4::~GrowingMp4() {
@@ -57,16 +48,16 @@ bool GrowingMp4::put(std::uint64_t at, std::span<const std::uint8_t> bytes) cons
 /// `bytes` with contents that have a length; where that stands is noted. Unchanged: there are no
 /// contents yet.
 std::vector<std::uint8_t> GrowingMp4::complete_head(Bytes bytes) {
-  const Box moov = find_box(bytes, 0, bytes.size(), "moov");
+  const Box moov = find_box(bytes, {"", 0, bytes.size()}, "moov");
   std::vector<std::uint8_t> out(bytes.begin(), bytes.end());
   if (moov.begin == 0) return out;
   const std::size_t begin = moov.begin - 8;
-  const auto contents = complete_moov(bytes.subspan(begin, moov.end - begin), 0);
+  const auto contents = complete_moov(bytes.subspan(begin, moov.end - begin), TrackTypes(), 0);
   out.resize(begin);
   out.insert(out.end(), contents.begin(), contents.end());
-  const Box whole = find_box(out, begin, out.size(), "moov");
-  const Box extends = find_box(out, whole.begin, whole.end, "mvex");
-  const Box length = find_box(out, extends.begin, extends.end, "mehd");
+  const Box whole = find_box(out, {"", begin, out.size()}, "moov");
+  const Box extends = find_box(out, whole, "mvex");
+  const Box length = find_box(out, extends, "mehd");
   if (length.begin != 0) length_at_ = end_ + length.begin + kFullBoxHeader;
   out.insert(out.end(), bytes.begin() + std::ptrdiff_t(moov.end), bytes.end());
   return out;

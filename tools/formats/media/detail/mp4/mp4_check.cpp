@@ -41,20 +41,22 @@ TopBoxes find_top_boxes(std::uint64_t size, const ReadAt& read) {
 
 }  // namespace
 
-Result<void> check_fragmented_mp4(std::uint64_t size, const ReadAt& read) {
+Result<std::vector<MetadataTrack>> look_at_mp4(std::uint64_t size, const ReadAt& read) {
   const TopBoxes top = find_top_boxes(size, read);
-  if (!top.fragmented || top.moov_size == 0) return {};
+  if (top.moov_size == 0) return std::vector<MetadataTrack>();
   const Error damaged = make_error(Code::syntax, "the contents of this fragmented mp4 are damaged");
-  if (top.moov_size > kLargestMoov) return damaged;
-  std::vector<std::uint8_t> moov(static_cast<std::size_t>(top.moov_size));
-  if (!read(top.moov, moov)) return damaged;
-  const Box box = box_at(moov, 0, moov.size());
+  std::vector<std::uint8_t> moov;
+  if (top.moov_size <= kLargestMoov) moov.resize(static_cast<std::size_t>(top.moov_size));
+  const bool whole = !moov.empty() && read(top.moov, moov);
+  if (!top.fragmented) return whole ? metadata_tracks(moov) : std::vector<MetadataTrack>();
+  const Box box = whole ? box_at(moov, 0, moov.size()) : Box();
   if (box.begin == 0) return damaged;
   bool good = true;
   const std::size_t end = for_each_box(moov, box.begin, box.end, [&](const Box& inner) {
     if (inner.type == "trak") good = good && track_id(moov, inner) - 1 < 0x7FFFFFFF;
   });
-  return good && end == box.end ? Result<void>() : damaged;
+  if (!good || end != box.end) return damaged;
+  return metadata_tracks(moov);
 }
 
 }  // namespace animeme::media

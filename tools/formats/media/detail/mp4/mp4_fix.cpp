@@ -1,5 +1,7 @@
 #include "tools/formats/media/detail/mp4/mp4_fix.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -13,14 +15,12 @@
 #include "tools/formats/media/detail/mp4/box_writer.h"
 #include "tools/formats/media/detail/mp4/boxes.h"
 #include "tools/formats/media/detail/mp4/fragment_index.h"
+#include "tools/formats/media/detail/mp4/metadata_tracks.h"
 #include "tools/formats/media/detail/tracks/text_samples.h"
 
 namespace animeme::media {
 namespace {
 
-constexpr std::size_t kVisualFields = 78;  // of a VisualSampleEntry, behind the box header
-constexpr std::size_t kAudioFields = 28;   // of an AudioSampleEntry, version 0
-constexpr std::uint8_t kEsDescriptor = 3;
 constexpr std::uint8_t kInitialObjectDescriptor = 0x10, kTrackReference = 0x0E;
 constexpr std::size_t kProfileBytes = 7;  // of an initial object descriptor without streams
 
@@ -146,18 +146,22 @@ class Patch {
     return std::fseek(file_.get(), long(at), SEEK_SET) == 0 &&
            std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) == bytes.size();
   }
-  bool flush() { return std::fflush(file_.get()) == 0; }
+  bool end_at(std::uint64_t size) {
+    return std::fflush(file_.get()) == 0 && ::ftruncate(::fileno(file_.get()), off_t(size)) == 0;
+  }
   std::uint64_t size() {
     return std::fseek(file_.get(), 0, SEEK_END) == 0 ? std::uint64_t(std::ftell(file_.get())) : 0;
   }
-  // Moves [begin, end) towards the end of the file.
-  bool move(std::uint64_t begin, std::uint64_t end, std::uint64_t by) {
+  // Moves [begin, end) to `to`, in either direction.
+  bool move(std::uint64_t begin, std::uint64_t end, std::uint64_t to) {
     std::vector<std::uint8_t> block(std::size_t(1) << 20);
-    while (end > begin) {
-      const auto count = std::size_t(std::min<std::uint64_t>(block.size(), end - begin));
+    for (std::uint64_t done = 0; done < end - begin;) {
+      const auto count = std::size_t(std::min<std::uint64_t>(block.size(), end - begin - done));
       const std::span<std::uint8_t> part(block.data(), count);
-      end -= count;
-      if (read(end, part) != count || !write(end + by, part)) return false;
+      // What is overwritten has been moved already.
+      const std::uint64_t at = to > begin ? end - begin - done - count : done;
+      if (read(begin + at, part) != count || !write(to + at, part)) return false;
+      done += count;
     }
     return true;
   }
@@ -206,10 +210,12 @@ Result<FragmentIndex> read_fragments(Patch& file, Bytes moov, const std::vector<
   return index;
 }
 
-// The completed contents to their place; everything from `tail` to `end` makes room.
+// The completed contents to their place; everything from `tail` to `end` moves behind them, and the
+// file ends there.
 bool replace(Patch& file, std::uint64_t at, std::uint64_t tail, std::uint64_t end,
              std::span<const std::uint8_t> moov) {
-  return file.move(tail, end, at + moov.size() - tail) && file.write(at, moov) && file.flush();
+  const std::uint64_t next = at + moov.size();
+  return file.move(tail, end, next) && file.write(at, moov) && file.end_at(next + end - tail);
 }
 
 }  // namespace
@@ -221,7 +227,7 @@ std::vector<std::size_t> find_es_ids(std::span<const std::uint8_t> moov) {
   return found;
 }
 
-std::vector<std::uint8_t> complete_moov(std::span<const std::uint8_t> moov,
+std::vector<std::uint8_t> complete_moov(std::span<const std::uint8_t> moov, const TrackTypes& types,
                                         std::optional<std::uint64_t> duration) {
   std::vector<std::uint8_t> cleared(moov.begin(), moov.end());
   for (const std::size_t at : find_es_ids(moov)) cleared[at] = cleared[at + 1] = 0;
@@ -237,6 +243,8 @@ std::vector<std::uint8_t> complete_moov(std::span<const std::uint8_t> moov,
     const Bytes content = bytes.subspan(box.begin, box.end - box.begin);
     if (box.type == "iods") {
       put_iods(out, content, ids);
+    } else if (box.type == "trak" && becomes_metadata(bytes, box, types)) {
+      put_metadata(out, bytes, box);
     } else {
       out.begin(box.type);
       if (box.type == "mvex" && duration) {
@@ -256,7 +264,7 @@ Result<void> shift_chunks(std::span<std::uint8_t> moov, std::uint64_t shift) {
   return shift_in(moov, {"", 0, moov.size()}, shift);
 }
 
-Result<void> complete_mp4(const std::string& path, Layout layout) {
+Result<void> complete_mp4(const std::string& path, Layout layout, const TrackTypes& types) {
   const auto failed = [] { return write_error(AVERROR(errno != 0 ? errno : EIO)); };
   errno = 0;
   Patch file(path);
@@ -271,11 +279,11 @@ Result<void> complete_mp4(const std::string& path, Layout layout) {
   if (layout == Layout::indexed && !fragments.empty()) {
     Result<FragmentIndex> index = read_fragments(file, old, fragments);
     if (!index) return index.error();
-    std::vector<std::uint8_t> moov = complete_moov(old, index->duration());
+    std::vector<std::uint8_t> moov = complete_moov(old, types, index->duration());
     append(moov, index->boxes());
     return replace(file, contents.at, moov_end, file.size(), moov) ? Result<void>() : failed();
   }
-  std::vector<std::uint8_t> moov = complete_moov(old);
+  std::vector<std::uint8_t> moov = complete_moov(old, types);
   const std::uint64_t brand_end = brand.at + brand.size;
   const bool last = moov_end == file.size();
   if (last && layout != Layout::as_written && contents.at > brand_end) {

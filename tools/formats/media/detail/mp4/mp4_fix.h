@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "fap/result.h"
+#include "tools/formats/media/detail/mp4/metadata_tracks.h"
 
 namespace animeme::media {
 
@@ -19,9 +20,9 @@ std::vector<std::size_t> find_es_ids(std::span<const std::uint8_t> moov);
 
 /// A whole `moov` box with ES_ID 0 in every `esds`, as 14496-14 wants it in files, with the
 /// tracks that have one listed in its `iods`, if there is one (ES_ID_Inc with the track ID), with
-/// texts that are not enabled, with a next_track_ID that is free, and with the `duration` of
-/// fragments, if given (mehd, in the time scale of the movie).
-std::vector<std::uint8_t> complete_moov(std::span<const std::uint8_t> moov,
+/// texts that are not enabled, with a next_track_ID that is free, with faces and texts as `types`
+/// says, and with the `duration` of fragments, if given (mehd, in the time scale of the movie).
+std::vector<std::uint8_t> complete_moov(std::span<const std::uint8_t> moov, const TrackTypes& types,
                                         std::optional<std::uint64_t> duration = {});
 
 /// Adds `shift` to every chunk offset of a whole `moov` box. Error: out_of_range (an offset of 32
@@ -37,6 +38,6 @@ enum class Layout : std::uint8_t {
 
 /// Completes the `moov` of a file. Works in place. Errors: io, out_of_range, internal (no moov
 /// box).
-Result<void> complete_mp4(const std::string& path, Layout layout);
+Result<void> complete_mp4(const std::string& path, Layout layout, const TrackTypes& types);
 
 }  // namespace animeme::media

@@ -83,7 +83,8 @@ std::string adaptation_set(const SegmentedTrack& track, int id, const std::strin
   text += format("      <Representation id=\"%s\" codecs=\"%s\" bandwidth=\"%lld\"",
                  track.name.c_str(), track.codecs.c_str(), (long long)peak(track));
   if (track.face) {
-    text += " width=\"320\" height=\"240\"/>\n";  // as in its sample entry
+    const bool video = track.codecs.starts_with("mp4v");
+    text += video ? " width=\"320\" height=\"240\"/>\n" : "/>\n";  // as in its sample entry
   } else {
     text += format(" audioSamplingRate=\"%d\">\n", track.sample_rate);
     text += format(

@@ -23,7 +23,7 @@ struct Segment {
 struct SegmentedTrack {
   bool face = false;            ///< else sound
   std::string name;             ///< "face" or "sound": begins the names of its files
-  std::string codecs;           ///< RFC 6381: "mp4v.20.61", "mp4a.40.2", "opus"
+  std::string codecs;           ///< RFC 6381: "mp4s.20" or "mp4v.20.61", "mp4a.40.2", "opus"
   std::uint32_t timescale = 0;  ///< ticks a second
   int sample_rate = 0;          ///< of sound
   int channels = 0;

@@ -184,7 +184,9 @@ Result<void> SegmentWriter::open(const tools::OutputFolder& folder) {
     Muxer& muxer = *(*track)->muxer;
     const int profile = visual_profile(input_);
     (*track)->description.face = true;
-    (*track)->description.codecs = "mp4v.20." + to_hex(std::array{std::uint8_t(profile)});
+    (*track)->description.codecs = options_.face_track == FaceTrackType::metadata
+                                       ? "mp4s.20"
+                                       : "mp4v.20." + to_hex(std::array{std::uint8_t(profile)});
     Result<void> done = muxer.add_face(*input_.face);
     if (done) {
       done = start(**track, {input_.face, profile, nullptr}, face_feed(muxer, *input_.face));
@@ -239,7 +241,7 @@ Result<MuxResult> SegmentWriter::write() {
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     Track& track = *tracks_[i];
     Result<void> step = track.muxer->finish();
-    if (step) step = complete_mp4(track.whole, Layout::contents_first);
+    if (step) step = complete_mp4(track.whole, Layout::contents_first, {options_.face_track});
     if (step) step = split(*folder, track, feeds_[i]->end());
     if (step && !dash_) {
       step =
