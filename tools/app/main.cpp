@@ -4,6 +4,7 @@
 #include <new>
 
 #include "tools/app/commands/line.h"
+#include "tools/app/commands/terminal.h"
 #include "tools/formats/common/exit_code.h"
 #include "tools/formats/files/output_file.h"
 #include "tools/formats/files/unfinished.h"
@@ -26,21 +27,21 @@ void keep_memory() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  using namespace animeme;
   keep_memory();
   std::ios::sync_with_stdio(false);
-  animeme::tools::clean_up_on_signals();
+  tools::clean_up_on_signals();
   try {
-    const int code = animeme::tools::run_line({argv, std::size_t(argc)});
-    const auto told = animeme::tools::flush_standard_output();
-    if (told || code != animeme::tools::kOk) return code;
-    std::cerr << "animeme: error: " + told.error().describe() + "\n";
-    return animeme::tools::kBadInput;
+    const int code = tools::run_line({argv, std::size_t(argc)});
+    const Result<void> flushed = tools::flush_standard_output();
+    return flushed || code != tools::kOk ? code : tools::report_error(flushed.error());
   } catch (const std::bad_alloc&) {
-    std::cerr << "animeme: error: there is not enough memory for this; close other programs, raise "
-                 "the limit (ulimit -v), or work on a part\n";
-    return animeme::tools::kInternal;
+    return tools::report_error(
+        make_error(Code::internal,
+                   "there is not enough memory for this; close other programs, raise the limit "
+                   "(ulimit -v), or work on a part"));
   } catch (const std::exception& error) {
-    std::cerr << "animeme: internal error: " << error.what() << "\n";
-    return animeme::tools::kInternal;
+    return tools::report_error(
+        make_error(Code::internal, std::string("internal error: ") + error.what()));
   }
 }

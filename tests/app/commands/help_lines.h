@@ -37,14 +37,14 @@ inline std::vector<std::string> all_commands() {
     if (listed && line.size() > 2 && line[2] != ' ') {
       names.push_back(line.substr(2, line.find(' ', 2) - 2));
     }
-    listed = listed || line == "Subcommands:";
+    listed = listed || line == "Commands:";
     if (listed && line.empty()) break;
   }
   return names;
 }
 
 // "  -o,--output OUT ... REQUIRED   What to write": the name is the longest, the value has one
-// blank before it.
+// blank before it. What does not fit beside them stands in the lines below.
 inline bool read_help_line(const std::string& line, HelpLine& out) {
   if (line.size() < 3 || !line.starts_with("  ") || line[2] == ' ') return false;
   const std::size_t end = line.find(' ', 2);
@@ -56,7 +56,7 @@ inline bool read_help_line(const std::string& line, HelpLine& out) {
   }
   if (end == std::string::npos || line[end + 1] == ' ') return false;  // a flag
   std::string value = line.substr(end + 1, line.find(' ', end + 1) - end - 1);
-  if (value == "REQUIRED" || value.ends_with(":")) return false;
+  if (value == "REQUIRED") return false;
   out.required = line.find(" REQUIRED") != std::string::npos;
   if (const std::size_t open = value.find('{'); open != std::string::npos) {
     std::istringstream words(value.substr(open + 1, value.find('}') - open - 1));

@@ -201,7 +201,7 @@ TEST(Usage, HelpFitsAndHasExamples) {
     const auto result = animeme({command, "--help"});
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_THAT(result.out, HasSubstr("Examples:\n  animeme ")) << command;
-    EXPECT_LT(std::count(result.out.begin(), result.out.end(), '\n'), 50) << command;
+    EXPECT_LT(std::count(result.out.begin(), result.out.end(), '\n'), 100) << command;
   }
   EXPECT_THAT(animeme({"--version"}).out, HasSubstr("animeme 0."));
   const std::string all = animeme({"stream", "--help-all"}).out;

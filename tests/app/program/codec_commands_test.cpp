@@ -159,7 +159,7 @@ TEST(BodyCommands, DecodedTextIsComparedWithItsStream) {
   EXPECT_THAT(faces.err, HasSubstr("visemes_all.fba has no body: " + (dir / "c.bap") + " is not"));
   EXPECT_THAT(dir.files(), testing::UnorderedElementsAre("a.bap", "a.fap", "b.fap", "c.fap"));
   EXPECT_THAT(fails(dir, {"decode", reference("visemes_all", ".fba"), "--bap", dir / "c.bap"}),
-              HasSubstr("there is no body in this: name a FAP text with -o"));
+              HasSubstr("there is no body here: name a FAP text with -o"));
 }
 
 TEST(BodyCommands, CompareTellsBapsApart) {
@@ -335,7 +335,7 @@ TEST(NoFace, IsSaidClearly) {
     EXPECT_THAT(fails(dir, arguments), HasSubstr("codes a body but no face")) << arguments[0];
   }
   EXPECT_THAT(fails(dir, {"encode", reference("body_only_all", ".src.bap"), "-o", dir / "a.fba"}),
-              HasSubstr("this is BAP text and holds no face: give it after --bap"));
+              HasSubstr("this is BAP text without a face: give it after --bap"));
   EXPECT_THAT(animeme({"stats", stream}).out, HasSubstr("20 of a body, no face"));
   EXPECT_EQ(json_of({"info", stream})["clip"]["frames"], 0);
 }
@@ -353,9 +353,9 @@ TEST(CodecErrors, MissingHalves) {
   EXPECT_THAT(fails(dir, {"encode", "--bap", bap, "--epf", epf, "-o", out}),
               AllOf(HasSubstr(epf), HasSubstr("codes a face: name a FAP text")));
   EXPECT_THAT(fails(dir, {"encode", fap, "--bap", fap, "--epf", epf, "-o", out}),
-              AllOf(HasSubstr(fap), HasSubstr("this holds no body: --bap wants BAP text")));
+              AllOf(HasSubstr(fap), HasSubstr("there is no body here: --bap needs BAP text")));
   EXPECT_THAT(fails(dir, {"encode", bap, "--epf", epf, "-o", out}),
-              AllOf(HasSubstr(bap), HasSubstr("holds no face: give it after --bap")));
+              AllOf(HasSubstr(bap), HasSubstr("without a face: give it after --bap")));
   EXPECT_THAT(fails(dir, {"encode", fap, "--bap", "/nowhere.bap", "--epf", epf, "-o", out}),
               HasSubstr("/nowhere.bap"));
   EXPECT_THAT(fails(dir, {"compare", fap, bap}), HasSubstr("no face"));

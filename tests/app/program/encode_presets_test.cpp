@@ -435,7 +435,7 @@ TEST(EncodeUsage, ContradictionsAreOneSentence) {
     EXPECT_EQ(result.exit_code, 2) << said;
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 2) << said;
     EXPECT_TRUE(result.err.starts_with("animeme: ")) << said;
-    EXPECT_TRUE(result.err.ends_with("\nRun with --help for more information.\n")) << said;
+    EXPECT_TRUE(result.err.ends_with("\nRun 'animeme encode --help'.\n")) << said;
     EXPECT_THAT(result.out, IsEmpty()) << said;
     EXPECT_EQ(dir.files().size(), before.size()) << said;
   }

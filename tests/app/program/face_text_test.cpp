@@ -79,7 +79,7 @@ TEST_P(EveryPreset, DecodesToTextForPlayers) {
       EXPECT_EQ(frame.value[19], frame.value[20]);
       EXPECT_EQ(frame.value[59], frame.value[60]);
     }
-    EXPECT_EQ(said.find("0.06 s a minute") == std::string::npos, rate.den == 1) << said;
+    EXPECT_EQ(said.find("0.06 s per minute") == std::string::npos, rate.den == 1) << said;
     // The other ways of decoding: all FAPs, another rate.
     succeeds({"decode", dir / "a.fba", "--fill", "-o", dir / "c.fap"});
     expect_right(dir / "c.fap");
@@ -182,7 +182,7 @@ TEST(FaceText, ImportsRepeatWhatIsMissing) {
   spill(dir / "take.csv", table);
   const std::string said =
       succeeds({"import", dir / "take.csv", "--rate", "29.97", "--no-repair", "-o", dir / "a.fap"});
-  EXPECT_THAT(said, HasSubstr("--rate 30 makes it right"));
+  EXPECT_THAT(said, HasSubstr("--rate 30 corrects it"));
   EXPECT_THAT(said, HasSubstr("4 of them held"));
   expect_right(dir / "a.fap");
   const fap::Sequence held = read(dir / "a.fap");

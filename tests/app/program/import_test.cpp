@@ -69,7 +69,7 @@ TEST(Import, LiveLinkFace) {
   EXPECT_EQ(take.clip.frames[3].value[19], 498);
   EXPECT_EQ(take.clip.frames[3].value[49], -25000);
   EXPECT_FALSE(take.clip.frames[3].mask[20]) << "no column reaches the right upper lid";
-  EXPECT_THAT(take.talk, AllOf(HasSubstr("300 frames"), HasSubstr("60 frames a second")));
+  EXPECT_THAT(take.talk, AllOf(HasSubstr("300 frames"), HasSubstr("60 frames per second")));
   EXPECT_THAT(take.talk, testing::Not(HasSubstr("warning")));
 }
 

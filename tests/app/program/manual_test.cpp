@@ -31,7 +31,7 @@ std::vector<std::string> listed(const std::string& help) {
 
 std::vector<std::string> commands() {
   const std::string help = animeme({"--help"}).out;
-  std::vector<std::string> names = listed(help.substr(help.find("Subcommands:")));
+  std::vector<std::string> names = listed(help.substr(help.find("Commands:")));
   return names;
 }
 

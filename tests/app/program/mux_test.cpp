@@ -109,7 +109,7 @@ TEST(MuxCommand, AStreamOfOneIntraPlaneIsCodedAgainForSegments) {
   };
   const auto again = with({dir / "a.m3u8"});
   ASSERT_EQ(again.exit_code, 0) << again.err;
-  EXPECT_THAT(again.err, HasSubstr("coded again, so that a segment can begin every 5.00 s"));
+  EXPECT_THAT(again.err, HasSubstr("encoded again, so that a segment can start every 5.00 s"));
   EXPECT_THAT(again.err, HasSubstr("--copy keeps it"));
   EXPECT_EQ(segments_of(dir / "a_hls/face.m3u8"), 4u);
   // The same values, since the quantiser is the same.

@@ -52,8 +52,8 @@ TEST(PhonesCommand, WhatAModelLacksIsSaidWhenAsked) {
   ASSERT_EQ(quiet.exit_code, 0) << quiet.err;
   EXPECT_THAT(quiet.err, Not(HasSubstr("spoken as")));
   const auto verbose = animeme({"speak", "-v", "--script", script, "-o", dir / "a.fap"});
-  EXPECT_THAT(verbose.err, HasSubstr("the model has no HH, spoken as AH"));
-  EXPECT_THAT(verbose.err, HasSubstr("the model has no OY, spoken as AO IH"));
+  EXPECT_THAT(verbose.err, HasSubstr("the model has no phone HH: it is spoken as AH"));
+  EXPECT_THAT(verbose.err, HasSubstr("the model has no phone OY: it is spoken as AO IH"));
 }
 
 }  // namespace phones_command_test

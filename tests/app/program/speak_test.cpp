@@ -106,6 +106,43 @@ INSTANTIATE_TEST_SUITE_P(
                     std::pair{"es", "Buenos dias, mi amigo vive en Bilbao."}),
     [](const auto& param_info) { return std::string(param_info.param.first); });
 
+// What everybody types first.
+TEST(Speak, TakesATextOrAFileWithoutAnOption) {
+  const TempDir dir;
+  test::spill(dir / "words.txt", "Hello world");
+  ASSERT_EQ(animeme({"speak", "--text", "Hello world", "-o", dir / "text.fba", "-o",
+                     dir / "talk.mp4", "--save-script", dir / "talk.TextGrid"})
+                .exit_code,
+            0);
+  const std::string stream = test::slurp(dir / "text.fba");
+  for (const std::string& input : {std::string("Hello world"), dir / "words.txt"}) {
+    const auto result = animeme({"speak", input, "-o", dir / "bare.fba"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(test::slurp(dir / "bare.fba"), stream) << input;
+  }
+  EXPECT_EQ(animeme({"speak", dir / "talk.TextGrid", "-o", dir / "script.fap"}).exit_code, 0);
+  const auto heard = animeme(
+      {"speak", dir / "talk.mp4", "--transcript", "hello world", "-o", dir / "aligned.fap"});
+  EXPECT_EQ(heard.exit_code, 0) << heard.err;
+  EXPECT_EQ(read_clip(dir / "script.fap").frames.size(),
+            read_clip(dir / "aligned.fap").frames.size());
+
+  test::spill(dir / "data.xyz", "?");
+  const std::pair<std::vector<std::string>, const char*> wrong[] = {
+      {{"Hello", "--text", "world"}, "give one of them"},
+      {{"Hello", "--script", dir / "talk.TextGrid"}, "too many"},
+      {{"what she said", "--audio", dir / "talk.mp4"}, "--transcript"},
+      {{dir / "data.xyz"}, "--script or --audio"},
+      {{"--transcript", "what she said"}, "--transcript requires --audio"}};
+  for (const auto& [line, said] : wrong) {
+    std::vector<std::string> arguments = {"speak", "-o", dir / "wrong.fap"};
+    arguments.insert(arguments.end(), line.begin(), line.end());
+    const auto result = animeme(arguments);
+    EXPECT_EQ(result.exit_code, 2) << said;
+    EXPECT_THAT(result.err, HasSubstr(said));
+  }
+}
+
 TEST(Speak, Mp4HoldsTheVeryFapsAfterQuantisation) {
   const TempDir dir;
   const std::vector<std::string> what = {"speak", "--text", "Hello world, this is Animeme.", "-o"};

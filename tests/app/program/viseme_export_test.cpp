@@ -48,7 +48,7 @@ TEST(ExportVisemes, ScriptsHaveEventsAndFades) {
   const auto out = animeme({"export", dir / "words.tsv", "--rate", "50", "--audio", "x/my.wav",
                             "-o", dir / "words.visemes.json"});
   ASSERT_EQ(out.exit_code, 0) << out.err;
-  EXPECT_THAT(out.err, HasSubstr("10 events, 65 frames of 15 visemes, 50 frames a second"));
+  EXPECT_THAT(out.err, HasSubstr("10 events, 65 frames of 15 visemes, 50 frames per second"));
   const json track = read_json(dir / "words.visemes.json");
   EXPECT_EQ(track["format"], "animeme-visemes");
   EXPECT_EQ(track["fps"], 50);

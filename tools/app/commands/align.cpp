@@ -1,13 +1,12 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 
 #include "dam/script/script.h"
-#include "tools/app/commands/bounds.h"
 #include "tools/app/commands/command.h"
 #include "tools/app/commands/script_options.h"
 #include "tools/app/commands/terminal.h"
 #include "tools/formats/common/json.h"
+#include "tools/formats/common/text.h"
 #include "tools/formats/files/files.h"
 #include "tools/formats/files/output_file.h"
 #include "tools/speech/talking/spoken.h"
@@ -110,8 +109,8 @@ Result<voice::Alignment> align_by_ear(const AlignOptions& options) {
     word.confidence = one.confidence;
     words += (words.empty() ? "" : " ") + one.text;
   }
-  say(options.audio + ": without its text, by what is heard" +
-      (words.empty() ? "" : ": \"" + words + "\"") + "; --transcript is more exact");
+  say(options.audio + ": recognised without its text" +
+      (words.empty() ? "" : ": \"" + words + "\"") + "; --transcript is more accurate");
   alignment.script = std::move(heard->script);
   alignment.confidences = std::move(heard->confidences);
   alignment.confidence = heard->confidence;
@@ -130,7 +129,7 @@ Result<int> run(AlignOptions options) {
     // Somebody may have corrected it by hand.
     std::error_code unknown;
     if (std::filesystem::exists(options.output, unknown)) {
-      return usage_error(options.output + " is there already; -o " + options.output +
+      return usage_error(options.output + " exists already; -o " + options.output +
                          " replaces it, -o with another name keeps it");
     }
     if (auto can = try_output(options.output); !can) return can.error();
@@ -154,45 +153,42 @@ Result<int> run(AlignOptions options) {
   return kOk;
 }
 
-void add_options(CLI::App& app, AlignOptions& options) {
-  app.add_option("audio,--audio", options.audio, "Recorded voice in any format that FFmpeg reads")
+void add_options(OptionTable& cli, AlignOptions& options) {
+  cli.add("audio,--audio", options.audio, "Recorded voice in any format that FFmpeg reads")
       ->required();
-  auto* said = app.add_option("--transcript", options.transcript,
-                              "What is said in it; without it, and without --script, what is heard")
-                   ->each([&options](const std::string&) { options.has_transcript = true; });
-  app.add_option("--script", options.script,
-                 "The same as a script of words: subtitles, what a recogniser wrote; its times "
-                 "are not used")
-      ->excludes(said);
-  add_script_options(app, options.reading);
-  app.add_option("--lang", options.aligner.language,
-                 "Language of the transcript, as en, it or es-419")
-      ->capture_default_str();
-  app.add_option("--min-confidence", options.least,
-                 "Refuse words that are less sure, 0 to 1 (0.05: those that hardly fit), by name; "
-                 "0: refuse nothing at all. Without it a recording is refused whose text does not "
-                 "fit on the whole: another text, noise, nobody speaks")
-      ->check(between(0.0, 1.0));
-  add_output(app.add_option(
-                 "-o,--output", options.output,
-                 "Script to write: .TextGrid (Praat), .tsv, .pho (MBROLA), .vtt (WebVTT), - "
-                 "for a TextGrid on standard output; default: the recording's name with .TextGrid, "
-                 "beside it, if there is none yet"),
-             dam::script_endings(), OutputKind::file_or_dash);
-  app.add_flag(
-      "--json", options.json,
-      "On standard output: words with times, confidences and whether they are said; speech "
-      "that the transcript does not have (put_in); each phone with its confidence");
+  cli.add("--transcript", options.transcript,
+          "Text that is spoken; without it and --script, phones are recognised")
+      ->sets(options.has_transcript);
+  cli.add("--script", options.script,
+          "The text as a script of words, such as subtitles or the output of a recogniser; "
+          "its times are ignored")
+      ->excludes("--transcript");
+  add_script_options(cli, options.reading);
+  cli.add("--lang", options.aligner.language,
+          "Language of the transcript, such as en, it or es-419")
+      ->show_default();
+  cli.add("--min-confidence", options.least,
+          "Fail if words have a lower confidence, 0 to 1 (0.05: words that hardly match), "
+          "and name them; 0: accept everything. Default: fail if the text as a whole does "
+          "not match (another text, noise, no speech)")
+      ->between(0.0, 1.0);
+  cli.add("-o,--output", options.output,
+          "Script to write: .TextGrid (Praat), .tsv, .pho (MBROLA), .vtt (WebVTT), - for a "
+          "TextGrid on standard output; default: the name of the recording with .TextGrid, "
+          "unless that file exists")
+      ->output(joined(dam::script_endings(), " "), OutputKind::file_or_dash);
+  cli.add("--json", options.json,
+          "Print words with times, confidences and whether they are spoken; speech that is "
+          "not in the transcript (put_in); each phone with its confidence");
 }
 
 }  // namespace
 
-const Command kAlign{"align", "Find the timed phones of a recording, from its text or by ear",
-                     "  animeme align voice.wav --transcript \"what she said\"      # writes "
-                     "voice.TextGrid\n"
-                     "  animeme align voice.wav -o heard.TextGrid                 # without its "
-                     "text: less exact\n"
-                     "  animeme align voice.wav --script voice.srt --json -o voice.tsv",
-                     set_up<AlignOptions>};
+const Command kAlign{
+    "align", "Find the timed phones of a recording, with or without its text",
+    "  animeme align voice.wav --transcript \"what she said\"  # writes voice.TextGrid\n"
+    "  animeme align voice.wav -o heard.TextGrid  # without its text: less accurate\n"
+    "  animeme align voice.wav --script voice.srt --json -o voice.tsv",
+    set_up<AlignOptions>};
 
 }  // namespace animeme::tools

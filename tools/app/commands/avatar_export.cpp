@@ -7,6 +7,7 @@
 #include "fap/head/model.h"
 #include "fap/rate_text.h"
 #include "tools/app/commands/common.h"
+#include "tools/app/commands/report.h"
 #include "tools/formats/media/audio.h"
 #include "tools/formats/programs/scratch_folder.h"
 #include "tools/view/gltf/vrm_animation.h"
@@ -163,8 +164,12 @@ Result<int> export_avatar(const AvatarExport& job) {
     if (auto written = write_file(job.output, file->file); !written) return written.error();
     progress.clear();
     say_animations(job, clips, file->names, file->notes);
-    say(job.output + ": " + std::to_string(file->expressions.size()) + " expressions, " +
-        std::to_string(file->file.size() / 1000) + " kB");
+    report_output(job.output,
+                  std::to_string(file->expressions.size()) + " expressions, " +
+                      std::to_string(file->file.size() / 1000) + " kB",
+                  {{"animations", file->names},
+                   {"expressions", file->expressions.size()},
+                   {"bytes", file->file.size()}});
     return kOk;
   }
   const auto file = gltf::animate_file(*bytes, clips, options);
@@ -172,9 +177,15 @@ Result<int> export_avatar(const AvatarExport& job) {
   if (auto written = write_parts(job.output, *file); !written) return written.error();
   progress.clear();
   say_animations(job, clips, file->names, file->notes);
-  say(job.output + ": " + std::to_string(file->shapes) + " shapes on " +
-      std::to_string(file->meshes) + " meshes, " + std::to_string(file->bones) + " bones, " +
-      std::to_string(file->size() / 1000) + " kB");
+  report_output(job.output,
+                std::to_string(file->shapes) + " shapes on " + std::to_string(file->meshes) +
+                    " meshes, " + std::to_string(file->bones) + " bones, " +
+                    std::to_string(file->size() / 1000) + " kB",
+                {{"animations", file->names},
+                 {"shapes", file->shapes},
+                 {"meshes", file->meshes},
+                 {"bones", file->bones},
+                 {"bytes", file->size()}});
   return kOk;
 }
 

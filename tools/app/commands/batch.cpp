@@ -1,11 +1,9 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <thread>
 
 #include "tools/app/batch/batch.h"
-#include "tools/app/commands/bounds.h"
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/interrupt.h"
 #include "tools/app/commands/line.h"
@@ -75,8 +73,8 @@ Json steps_json(const batch::Standing& standing) {
 // What was done now, a minute of speech of it.
 void print_profile(const batch::Standing& standing) {
   const double minutes = standing.speech_seconds / 60;
-  if (minutes <= 0) return say("--profile: nothing was spoken of which the length is known");
-  say(format("%-10s %14s %14s   of %.1f min of speech", "step", "CPU s a min", "bytes a min",
+  if (minutes <= 0) return say("--profile: no speech of known length was made");
+  say(format("%-10s %14s %14s   of %.1f min of speech", "step", "CPU s per min", "bytes per min",
              minutes));
   for (std::size_t i = 0; i < kSteps; ++i) {
     const Cost& cost = standing.costs[i];
@@ -125,7 +123,7 @@ std::string take(const BatchOptions& given, batch::Settings& settings) {
     const auto command = parse_command(*hook);
     if (!command) return command.error().message;
     if (!command->names("file") || !command->names("uri")) {
-      return "--fetch and --store want {uri} and {file}";
+      return "--fetch and --store need {uri} and {file}";
     }
   }
   settings.jobs = given.jobs != 0 ? given.jobs : std::max(1U, std::thread::hardware_concurrency());
@@ -183,72 +181,68 @@ Result<int> run(const BatchOptions& options) {
   const batch::Standing& now = ending->standing;
   if (options.json) print_json(now, ending->totals, shown.seconds(), ending->stopped);
   say(settings.shared.out +
-      format(
-          ": %llu of %llu clips in %s, %llu of them unchanged, %llu failed; %.1f s of processors",
-          static_cast<unsigned long long>(now.done), static_cast<unsigned long long>(now.wanted),
-          clock_text(shown.seconds()).c_str(), static_cast<unsigned long long>(now.skipped),
-          static_cast<unsigned long long>(now.failed), cpu_seconds(now)));
+      format(": %llu of %llu clips in %s, %llu of them unchanged, %llu failed; %.1f CPU s",
+             static_cast<unsigned long long>(now.done), static_cast<unsigned long long>(now.wanted),
+             clock_text(shown.seconds()).c_str(), static_cast<unsigned long long>(now.skipped),
+             static_cast<unsigned long long>(now.failed), cpu_seconds(now)));
   if (options.profile) print_profile(now);
   if (ending->stopped) {
-    say("stopped; go on with the same command and --resume");
+    say("stopped; continue with the same command and --resume");
     return kInterrupted;
   }
   return ending->totals.failed > 0 ? kCheckFailed : kOk;
 }
 
-void add_options(CLI::App& app, BatchOptions& options) {
+void add_options(OptionTable& cli, BatchOptions& options) {
   batch::Settings& settings = options.settings;
-  app.add_option(
-         "manifest", settings.manifest,
-         "A row a clip: .tsv with the columns' names in its first line, .jsonl with an object "
-         "a line, .txt or .lst with a file a line; - for standard input")
+  cli.add("manifest", settings.manifest,
+          "Table with a row per clip: .tsv with column names in the first line, .jsonl with "
+          "an object per line, .txt or .lst with a file per line; - for standard input")
       ->required();
-  add_output(app.add_option("-o,--output", settings.shared.out,
-                            "Folder for the outputs, index.tsv and report.html"),
-             {}, OutputKind::folder)
+  cli.add("-o,--output", settings.shared.out, "Folder for the outputs, index.tsv and report.html")
+      ->output("", OutputKind::folder)
       ->required();
-  app.add_option("--set", options.sets,
-                 "Value of a column for rows that have none: lang=de, outputs=\".fba .TextGrid\"")
-      ->option_text("COLUMN=VALUE")
-      ->expected(1);
-  app.add_option("--form", options.form, "How the manifest is written: tsv, jsonl or list")
-      ->check(CLI::IsMember({"tsv", "jsonl", "list"}));
-  app.add_option("--jobs", options.jobs, "Clips at a time; default: one a core")
-      ->check(between(1, 512));
-  app.add_flag("--resume", settings.resume,
-               "Skip what is done and unchanged: row, content of inputs, version of the program");
-  app.add_option("--shard", options.shard, "Only these clips, by their ids: 1/4 to 4/4")
-      ->option_text("I/N")
-      ->check(written_so(problem_of_shard));
-  app.add_flag("--join", options.join,
-               "Check that all shards in the folder are complete, and make one index of theirs");
-  app.add_flag("--check", options.check, "Only check the manifest");
-  app.add_option(
-         "--fetch", settings.shared.fetch,
-         "Program that brings inputs whose names have ://, as \"rclone copyto {uri} {file}\"")
-      ->option_text("COMMAND");
-  app.add_option("--store", settings.shared.store,
-                 "Program that takes outputs away, as \"rclone copyto {file} {uri}\"; they do not "
-                 "stay in the folder")
-      ->option_text("COMMAND");
-  app.add_option("--to", settings.shared.to,
-                 "What {uri} of --store begins with: s3://bucket/talk/");
-  app.add_flag("--profile", options.profile,
-               "Seconds of processors and bytes a minute of speech, for each step");
-  app.add_flag("--json", options.json, "Machine-readable summary on standard output");
+  cli.add("--set", options.sets, "Default value of a column: lang=de, outputs=\".fba .TextGrid\"")
+      ->value("COLUMN=VALUE")
+      ->one_at_a_time();
+  cli.add("--form", options.form, "Format of the manifest: tsv, jsonl or list")
+      ->one_of("tsv jsonl list");
+  cli.add("--jobs", options.jobs, "Clips in parallel; default: one per core")->between(1, 512);
+  cli.add("--resume", settings.resume,
+          "Skip clips that are done and unchanged: row, content of the inputs, version of "
+          "the program");
+  cli.add("--shard", options.shard,
+          "Process only this part of the clips, chosen by their ids: 1/4 to 4/4")
+      ->value("I/N")
+      ->check(problem_of_shard);
+  cli.add("--join", options.join,
+          "Check that all shards in the folder are complete, and merge their indexes");
+  cli.add("--check", options.check, "Only check the manifest");
+  cli.add("--fetch", settings.shared.fetch,
+          "Command that downloads inputs whose names contain ://, such as \"rclone copyto "
+          "{uri} {file}\"")
+      ->value("COMMAND");
+  cli.add("--store", settings.shared.store,
+          "Command that uploads outputs, such as \"rclone copyto {file} {uri}\"; they are then "
+          "removed from the folder")
+      ->value("COMMAND");
+  cli.add("--to", settings.shared.to, "Prefix of {uri} of --store: s3://bucket/talk/");
+  cli.add("--profile", options.profile,
+          "Print CPU seconds and bytes per minute of speech for each step");
+  cli.add("--json", options.json, "Print a machine-readable summary");
 }
 
 }  // namespace
 
 const Command kBatch{
-    "batch", "Many clips at once: a table with a row a clip, resumed, in shards",
+    "batch", "Process many clips from a table, with resume and shards",
     "  printf 'id\\ttext\\tlang\\nhello\\tHello world\\ten\\nhallo\\tGuten Tag\\tde\\n' > "
     "clips.tsv\n"
     "  animeme batch clips.tsv -o out --set outputs=.fba\n"
     "  animeme batch clips.tsv -o out --set outputs=.fba --resume    # after Ctrl-C, or a change\n"
     "  animeme batch clips.jsonl -o out --shard 2/8                  # on the second machine of "
     "eight\n"
-    "  animeme batch clips.jsonl -o out --join                       # behind all of them\n"
+    "  animeme batch clips.jsonl -o out --join                       # after all of them\n"
     "  ls *.wav | animeme batch - --form list -o out --set outputs=\".mp4 render:.video.mp4\"\n"
     "Columns: id text text_file script audio transcript input lang voice tts model head outputs\n"
     "options encode_options render_options export_options align_options",

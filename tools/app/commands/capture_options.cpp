@@ -1,10 +1,9 @@
 #include "tools/app/commands/capture_options.h"
-#include "tools/app/commands/bounds.h"
 
-#include <CLI/CLI.hpp>
 #include <cstdlib>
 
 #include "fap/rate_text.h"
+#include "tools/app/commands/options.h"
 #include "tools/formats/files/files.h"
 
 namespace animeme::tools {
@@ -52,104 +51,96 @@ std::optional<double> aspect_of(const std::string& text) {
 }
 
 std::string problem_of_aspect(const std::string& text) {
-  return aspect_of(text) ? "" : "'" + text + "' is no shape of a pixel; write 16:15 or 1.067";
+  return aspect_of(text) ? "" : "'" + text + "' is not a pixel aspect ratio; write 16:15 or 1.067";
 }
 
 std::string problem_of_depth(const std::string& text) {
-  if (const std::string wrong = between(-1e6, 1e6)(text); !wrong.empty()) return wrong;
-  return std::stod(text) == 0 ? "0 leaves no depth; --flat leaves it out" : "";
+  if (const std::string wrong = problem_of_number(text, -1e6, 1e6); !wrong.empty()) return wrong;
+  return std::stod(text) == 0 ? "0 is not a scale; --flat ignores the depth" : "";
 }
 
-void add_landmark_options(CLI::App& app, CaptureOptions& options) {
+void add_landmark_options(OptionTable& cli, CaptureOptions& options) {
   exchange::LandmarkImportOptions& landmarks = options.settings.landmarks;
-  const auto seen = [&options](const std::string&) { options.for_landmarks = true; };
-  const auto add = [&](CLI::Option* option) { option->group(kLandmarkGroup)->each(seen); };
-  const auto flag = [&](const char* name, bool& value, const char* help) {
-    app.add_flag_callback(
-           name, [&options, &value] { value = options.for_landmarks = true; }, help)
-        ->group(kLandmarkGroup);
+  const auto add = [&](Option* option) {
+    option->in_group(kLandmarkGroup)->sets(options.for_landmarks);
   };
-  add(app.add_option("--neutral", landmarks.neutral,
-                     "Where the face is neutral (looks at the camera, eyes open, mouth closed): "
-                     "frames like 12 or 0-24, seconds like 1.5s or 0.5-1.2s. Without it: frames "
-                     "with open eyes and closed lips, the calmer half of them"));
-  add(app.add_option("--smooth", landmarks.face.smooth,
-                     "Seconds (standard deviation) to average over, both ways, so nothing is "
-                     "delayed; 0 leaves all as it is")
-          ->capture_default_str()
-          ->check(between(0.0, 1.0)));
-  add(app.add_option("--layout", options.layout,
-                     "What numbered points are, if the table has a part of them only")
-          ->check(CLI::IsMember({"68", "mediapipe"})));
-  add(app.add_option("--size", options.size,
-                     "Size of the picture, like 1280x720, where points are shares of it "
-                     "(MediaPipe); a video says it itself")
-          ->type_name("WIDTHxHEIGHT")
-          ->check(picture_size()));
-  add(app.add_option("--pixel-aspect", options.pixel_aspect,
-                     "Width of a pixel to its height, like 16:15 or 1.067, where points are pixels "
-                     "of a video that is shown wider than it is stored")
-          ->type_name("WIDTH:HEIGHT")
-          ->check(written_so(problem_of_aspect)));
-  add(app.add_option("--depth-scale", landmarks.table.depth_scale,
-                     "z times this has the unit of x and y")
-          ->check(written_so(problem_of_depth))
-          ->capture_default_str());
-  add(app.add_option("--face", options.face, "Number (face_id) of the face to read; the first")
-          ->check(at_least_zero()));
-  add(app.add_option("--confidence", landmarks.table.confidence,
-                     "Rows with less are left out (OpenFace)")
-          ->check(between(0, 1))
-          ->capture_default_str());
-  flag("--flat", landmarks.table.flat, "Use the picture alone, not the depth");
-  flag("--mirrored", landmarks.face.mirrored,
-       "The picture was mirrored, as selfie cameras do: swap left and right");
+  add(cli.add("--neutral", landmarks.neutral,
+              "Where the face is neutral (looks at the camera, eyes open, mouth closed): frames "
+              "such as 12 or 0-24, seconds such as 1.5s or 0.5-1.2s. Default: the calmer half of "
+              "the frames with open eyes and closed lips"));
+  add(cli.add("--smooth", landmarks.face.smooth,
+              "Standard deviation of smoothing in seconds, without delay; 0: none")
+          ->show_default()
+          ->between(0.0, 1.0));
+  add(cli.add("--layout", options.layout,
+              "Layout of numbered points, if the table contains only some of them")
+          ->one_of("68 mediapipe"));
+  add(cli.add("--size", options.size,
+              "Size of the picture, such as 1280x720, if points are fractions of it (MediaPipe); "
+              "default: that of the video")
+          ->picture_size());
+  add(cli.add("--pixel-aspect", options.pixel_aspect,
+              "Width of a pixel to its height, such as 16:15 or 1.067, if points are pixels of "
+              "an anamorphic video")
+          ->type("WIDTH:HEIGHT")
+          ->check(problem_of_aspect));
+  add(cli.add("--depth-scale", landmarks.table.depth_scale,
+              "Factor from the unit of z to that of x and y")
+          ->check(problem_of_depth)
+          ->show_default());
+  add(cli.add("--face", options.face, "Number (face_id) of the face to read; default: the first")
+          ->at_least_zero());
+  add(cli.add("--confidence", landmarks.table.confidence,
+              "Leave out rows with less confidence (OpenFace)")
+          ->between(0, 1)
+          ->show_default());
+  add(cli.add("--flat", landmarks.table.flat, "Ignore the depth of the points"));
+  add(cli.add("--mirrored", landmarks.face.mirrored,
+              "The picture is mirrored, as by selfie cameras: swap left and right"));
 }
 
 }  // namespace
 
-void add_capture_options(CLI::App& app, CaptureOptions& options) {
-  app.add_option("--rate", options.rate,
-                 "Frames a second of the clip, like 30 or 29.97; without it the times tell")
-      ->type_name("RATE")
-      ->check(frame_rate());
-  app.add_flag("--degrees", options.degrees, "Angles of head and eyes are degrees, not radians");
-  app.add_option("--column", options.columns,
-                 "What a column is whose name says nothing: NAME=jawOpen, NAME=jawOpen*0.01, "
-                 "NAME=x_61, NAME=fap3, NAME=time_s; mouthL_*=8.3_* for x, y and z; NAME=- leaves "
-                 "it out. As often as needed")
-      ->allow_extra_args(false);
-  app.add_option("--columns", options.column_file, "The same as a table: column,meaning[,factor]");
-  app.add_flag("--shapes", options.settings.table.shapes,
-               "Of a JSON with landmarks and blend shapes the blend shapes");
-  app.add_flag_callback(
-      "--no-repair", [&options] { options.settings.landmarks.repair = false; },
-      "Leave glitches and gaps as they are. Without it: a face that jumps away and back is left "
-      "out, and at most 0.2 s are put between their neighbours");
-  app.add_option(
-      "--tracker", options.tracker,
-      "Of videos: the command of a tracker, {in} for the video, {out} for the table that "
-      "it writes (else its standard output). Without it: the environment variable "
-      "ANIMEME_TRACKER. No shell is run");
-  app.add_option("--tracker-seconds", options.settings.tracker_seconds,
-                 "Longest that a tracker may take for a video. Without it: an hour, or thirty "
-                 "times the length of the video if that is more")
-      ->check(between(0.1, 1e6));
-  add_landmark_options(app, options);
+void add_capture_options(OptionTable& cli, CaptureOptions& options) {
+  cli.add("--rate", options.rate,
+          "Frames per second of the clip, such as 30 or 29.97; default: from the times")
+      ->frame_rate();
+  cli.add("--degrees", options.degrees, "Angles of head and eyes are in degrees, not radians");
+  cli.add("--column", options.columns,
+          "Meaning of a column with another name: NAME=jawOpen, NAME=jawOpen*0.01, "
+          "NAME=x_61, NAME=fap3, NAME=time_s; mouthL_*=8.3_* for x, y and z; NAME=- ignores "
+          "it. May be repeated")
+      ->one_at_a_time();
+  cli.add("--columns", options.column_file, "The same as a table: column,meaning[,factor]");
+  cli.add("--shapes", options.settings.table.shapes,
+          "Read the blend shapes of a JSON file that has landmarks, too");
+  cli.add("--no-repair", options.no_repair,
+          "Keep glitches and gaps. Default: a face that jumps away and back is left out, and "
+          "gaps up to 0.2 s are interpolated");
+  cli.add("--tracker", options.tracker,
+          "For videos: command of a tracker, with {in} for the video and {out} for the table "
+          "that it writes (else its standard output). Default: the environment variable "
+          "ANIMEME_TRACKER. No shell is run");
+  cli.add("--tracker-seconds", options.settings.tracker_seconds,
+          "Time limit of the tracker per video. Default: an hour, or thirty times the length "
+          "of the video if that is more")
+      ->between(0.1, 1e6);
+  add_landmark_options(cli, options);
 }
 
-void add_neutral_options(CLI::App& app, NeutralSource& source) {
-  app.add_option("--neutral-from", source.from,
-                 "Another recording of the same person, whose neutral face counts (with --neutral: "
-                 "that part of it)")
-      ->group(kLandmarkGroup);
-  app.add_option("--face-file", source.face_file,
-                 "The neutral face, as --save-face wrote it (or neutral.json of a corpus)")
-      ->group(kLandmarkGroup);
+void add_neutral_options(OptionTable& cli, NeutralSource& source) {
+  cli.add("--neutral-from", source.from,
+          "Another recording of the same person that has the neutral face (with --neutral: "
+          "that part of it)")
+      ->in_group(kLandmarkGroup);
+  cli.add("--face-file", source.face_file,
+          "The neutral face, as written by --save-face (or neutral.json of a corpus)")
+      ->in_group(kLandmarkGroup);
 }
 
 Result<CaptureSettings> capture_settings(const CaptureOptions& options) {
   CaptureSettings settings = options.settings;
+  if (options.no_repair) settings.landmarks.repair = false;
   settings.degrees = options.degrees;
   if (!options.rate.empty()) {
     const Result<fap::Rate> rate = fap::parse_rate(options.rate);

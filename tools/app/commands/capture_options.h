@@ -16,6 +16,7 @@ inline constexpr const char* kLandmarkGroup = "Landmarks";  ///< of options in -
 struct CaptureOptions {
   std::string rate;                  ///< --rate
   bool degrees = false;              ///< --degrees
+  bool no_repair = false;            ///< --no-repair
   std::string layout;                ///< --layout
   std::string size;                  ///< --size
   std::string pixel_aspect;          ///< --pixel-aspect
@@ -28,9 +29,9 @@ struct CaptureOptions {
 };
 
 /// Adds all of them.
-void add_capture_options(CLI::App& app, CaptureOptions& options);
+void add_capture_options(OptionTable& cli, CaptureOptions& options);
 /// Adds --neutral-from and --face-file.
-void add_neutral_options(CLI::App& app, NeutralSource& source);
+void add_neutral_options(OptionTable& cli, NeutralSource& source);
 
 /// Errors: invalid_argument and those of reading --columns; all are errors of usage.
 Result<CaptureSettings> capture_settings(const CaptureOptions& options);

@@ -1,5 +1,4 @@
 #include <fnmatch.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -10,8 +9,8 @@
 #include "tools/app/check/report.h"
 #include "tools/app/check/run_suite.h"
 #include "tools/app/check/suite.h"
-#include "tools/app/commands/bounds.h"
 #include "tools/app/commands/common.h"
+#include "tools/app/commands/report.h"
 #include "tools/formats/common/json.h"
 
 namespace animeme::tools {
@@ -106,7 +105,7 @@ Result<int> run(const CheckOptions& options) {
     if (!options.coverage) verify(one);
     chosen.push_back(&one);
   }
-  if (chosen.empty()) return usage_error("no case has a name or feature like that of --filter");
+  if (chosen.empty()) return usage_error("no case has a name or feature that matches --filter");
   if (options.coverage) {
     auto written = write_file("-", coverage_table(chosen));
     if (!written) return written.error();
@@ -126,6 +125,7 @@ Result<int> run(const CheckOptions& options) {
   progress.clear();
 
   const bool own = !run.command;
+  report_printed();
   if (options.json != "-" && options.junit != "-") {
     if (auto ok = write_file("-", text_report(*results, own)); !ok) return ok.error();
   }
@@ -139,52 +139,51 @@ Result<int> run(const CheckOptions& options) {
   }
   const Tally sum = tally(*results);
   if (sum.bad_data > 0) {
-    return make_error(Code::syntax, std::to_string(sum.bad_data) +
-                                        " cases are not as they were published; get them again")
+    return make_error(Code::syntax,
+                      std::to_string(sum.bad_data) +
+                          " cases differ from the published ones; download them again")
         .in_file(options.places.front());
   }
   return sum.all_right() ? kOk : kCheckFailed;
 }
 
-void add_options(CLI::App& app, CheckOptions& options) {
-  app.add_option("place", options.places,
-                 "Folder of cases (conformance), a .tar.xz of them, a folder of X.fba with "
-                 "X.dec.fap or X.dec.bap; or FAP texts, whether old players read them right")
+void add_options(OptionTable& cli, CheckOptions& options) {
+  cli.add("place", options.places,
+          "Folder of cases (conformance), a .tar.xz of them, or a folder of X.fba with "
+          "X.dec.fap or X.dec.bap; or FAP texts, to check whether old players read them "
+          "correctly")
       ->required();
-  app.add_flag("--high-level", options.high_level,
-               "FAP texts are for players that show FAP 1 and 2, as Xface does");
-  app.add_option("--decoder", options.decoder,
-                 "Another decoder: its command with {in} {out} {bap} for the files; without {out} "
-                 "standard output is read. No shell is run");
-  app.add_option("--filter", options.filters,
-                 "Cases whose name or one of whose features contains this, or matches it with * ? "
-                 "[]; may be given again");
-  app.add_option("--timeout", options.timeout, "Seconds for one case")
-      ->check(between(0.01, 86400.0))
-      ->capture_default_str();
-  app.add_option("--jobs", options.jobs, "Cases at once; 0: one for each processor core")
-      ->check(between(0, 256))
-      ->capture_default_str();
-  app.add_flag("--no-encode", options.no_encode,
-               "Only decode; do not write the streams again from their parameters");
-  app.add_flag("--coverage", options.coverage, "Run nothing, print which features the cases cover");
-  add_output(
-      app.add_option("--json", options.json, "Results as JSON to this file, - for standard output"),
-      {".json"});
-  add_output(app.add_option("--junit", options.junit, "Results as JUnit XML to this file"),
-             {".xml"});
+  cli.add("--high-level", options.high_level,
+          "FAP texts are for players that support FAP 1 and 2, such as Xface");
+  cli.add("--decoder", options.decoder,
+          "Another decoder: its command with {in} {out} {bap} for the files; without {out} "
+          "its standard output is read. No shell is run");
+  cli.add("--filter", options.filters,
+          "Only cases whose name or feature contains this, or matches it with * ? []; may be "
+          "repeated");
+  cli.add("--timeout", options.timeout, "Seconds per case")->between(0.01, 86400.0)->show_default();
+  cli.add("--jobs", options.jobs, "Cases in parallel; 0: one per core")
+      ->between(0, 256)
+      ->show_default();
+  cli.add("--no-encode", options.no_encode,
+          "Only decode; do not encode the streams again from their parameters");
+  cli.add("--coverage", options.coverage, "Run nothing, print which features the cases cover");
+  cli.add("--json", options.json, "Write results as JSON to this file, - for standard output")
+      ->output(".json");
+  cli.add("--junit", options.junit, "Write results as JUnit XML to this file")->output(".xml");
 }
 
 }  // namespace
 
-const Command kCheck{"check",
-                     "Run conformance cases against this decoder or any program, or check FAP "
-                     "texts for players; exit code 1 if one is not right",
-                     "  animeme check talk.fap\n"
-                     "  animeme check conformance\n"
-                     "  animeme check conformance --decoder \"mydecoder {in} {out} {bap}\"\n"
-                     "  animeme check conformance --decoder \"mydecoder --fap {in}\" --filter "
-                     "'range*' --json results.json",
-                     set_up<CheckOptions>};
+const Command kCheck{
+    "check",
+    "Run conformance cases against this or another decoder, or check FAP texts for "
+    "players; exit code 1 if one fails",
+    "  animeme check talk.fap\n"
+    "  animeme check conformance\n"
+    "  animeme check conformance --decoder \"mydecoder {in} {out} {bap}\"\n"
+    "  animeme check conformance --decoder \"mydecoder --fap {in}\" --filter "
+    "'range*' --json results.json",
+    set_up<CheckOptions>};
 
 }  // namespace animeme::tools

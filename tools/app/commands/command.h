@@ -2,40 +2,41 @@
 /// A command of the program: its name, its options, what it runs and how it ends.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 
 #include "fap/result.h"
-#include "tools/app/commands/outputs.h"
+#include "tools/app/commands/options.h"
 #include "tools/formats/common/exit_code.h"
-
-namespace CLI {
-class App;
-}
 
 namespace animeme::tools {
 
-/// A command puts its options into `app` and returns what is to run when it was chosen: the exit
-/// code, or an error that main() prints (exit code 3).
-using Action = std::function<Result<int>()>;
+struct OptionTable;
 
-/// Command::add of most: makes the options, adds them by add_options(app, options), and runs
+/// What runs when a command was chosen: its options, which the command line has set, and a
+/// function that takes them. It returns the exit code, or an error that main() prints (exit code
+/// 3).
+struct Action {
+  std::shared_ptr<void> options;
+  Result<int> (*run)(void* options) = nullptr;
+};
+
+/// Command::add: creates the options, adds them by add_options(cli, options), and runs
 /// run(options). Both functions stand beside the command.
 template <class Options>
-Action set_up(CLI::App& app) {
-  auto options = std::make_shared<Options>();
-  add_options(app, *options);
-  return [options] { return run(*options); };
+Action set_up(OptionTable& cli) {
+  const auto options = std::make_shared<Options>();
+  add_options(cli, *options);
+  return {options, [](void* parsed) { return run(*static_cast<Options*>(parsed)); }};
 }
 
 /// One command: its name, one line of help, and the function that sets it up. `examples` ends
 /// its --help.
 struct Command {
-  const char* name;              ///< as typed
-  const char* summary;           ///< one line of --help
-  const char* examples;          ///< of use, lines with two blanks in front
-  Action (*add)(CLI::App& app);  ///< sets options up; what it returns is run
+  const char* name;                 ///< as typed
+  const char* summary;              ///< one line of --help
+  const char* examples;             ///< of use, lines with two blanks in front
+  Action (*add)(OptionTable& cli);  ///< set_up<Options>
 };
 
 /// @{
@@ -45,7 +46,8 @@ extern const Command kAlign, kBatch, kCheck, kCompare, kCorpus, kCrossmap, kDeco
     kRender, kRetarget, kServe, kSpeak, kStats, kStream, kTrain, kView;
 /// @}
 
-/// Prints a usage error on standard error; returns kUsage for the command to return.
+/// Prints a usage error on standard error, and which help to read; returns kUsage for the command
+/// to return.
 int usage_error(const std::string& text);
 
 }  // namespace animeme::tools

@@ -64,7 +64,7 @@ struct LengthLimit {
   fap::FillOptions filling(fap::FillOptions options, const fap::Rate& rate) const;
 };
 /// Adds --max-seconds.
-void add_length_option(CLI::App& app, LengthLimit& limit);
+void add_length_option(OptionTable& cli, LengthLimit& limit);
 
 /// The face as players show it: held and mirrored as the stream means it, FAP 1 and 2 as low-level
 /// FAPs unless they are kept. Errors: those of fap::fill(), with `path` and the option that allows

@@ -1,10 +1,8 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <optional>
 
 #include "fap/detail/walk.h"
-#include "tools/app/commands/bounds.h"
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/plane_file.h"
 #include "tools/formats/inspect/comparison.h"
@@ -200,19 +198,20 @@ Result<int> run(const CompareOptions& options) {
   return accepted(comparison->face) && accepted(comparison->body) ? kOk : kCheckFailed;
 }
 
-void add_options(CLI::App& app, CompareOptions& options) {
-  app.add_option("a", options.a, "FAP or BAP text, FBA stream or container")->required();
-  app.add_option("b", options.b, "The same or another form")->required();
-  app.add_option("--max-rms", options.max_rms,
-                 "Accept up to this error, in quantiser steps RMS over all FAPs, and over all BAPs")
-      ->check(at_least_zero());
-  app.add_flag("--json", options.json, "Machine-readable result");
+void add_options(OptionTable& cli, CompareOptions& options) {
+  cli.add("a", options.a, "FAP or BAP text, FBA stream or container")->required();
+  cli.add("b", options.b, "The same or another format")->required();
+  cli.add("--max-rms", options.max_rms,
+          "Accept an error up to this, in quantiser steps RMS over all FAPs, and over all "
+          "BAPs")
+      ->at_least_zero();
+  cli.add("--json", options.json, "Print a machine-readable result");
 }
 
 }  // namespace
 
 const Command kCompare{
-    "compare", "Differences of two clips in FAP units and quantiser steps; exit code 1 if any",
+    "compare", "Compare two clips in FAP units and quantiser steps; exit code 1 if they differ",
     "  animeme compare talk.fap talk.fba\n"
     "  animeme compare body.bap dance.fba\n"
     "  animeme compare before.fap after.fap --max-rms 0.5 --json",

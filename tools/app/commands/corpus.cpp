@@ -1,6 +1,5 @@
 #include "tools/app/commands/corpus.h"
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdlib>
 
@@ -8,6 +7,7 @@
 #include "dam/signal/fap_signal.h"
 #include "dam/training/alignment.h"
 #include "tools/app/commands/fap_names.h"
+#include "tools/app/commands/options.h"
 #include "tools/formats/common/text.h"
 #include "tools/formats/inspect/left_out.h"
 
@@ -31,7 +31,7 @@ Result<dam::CorpusOptions> corpus_options(const CorpusSettings& settings) {
 
 void say_left_out(const dam::LeftOut& left_out) {
   if (left_out.skipped > 0)
-    say(std::to_string(left_out.skipped) + " rows without curves are left out");
+    say(std::to_string(left_out.skipped) + " rows without curves were skipped");
   for (const std::string& text : inspect::blanks_text(left_out)) warn(text);
 }
 
@@ -47,11 +47,13 @@ Result<double> find_lag(const std::vector<dam::Utterance>& sentences) {
       dam::check_alignment(dam::remove_glitches(given).sentences);
   if (!alignment) return alignment.error();
   if (!alignment->lag || alignment->unrelated) {
-    warn("these sentences do not tell how far sound and motion are apart; nothing is shifted");
+    warn(
+        "the lag between sound and motion cannot be estimated from these sentences; nothing is "
+        "shifted");
     return 0.0;
   }
   if (alignment->lag->notable()) return alignment->lag->seconds;
-  say(format("sound and motion are in time (%+.0f ms); nothing is shifted",
+  say(format("sound and motion are in sync (%+.0f ms); nothing is shifted",
              1000 * alignment->lag->seconds));
   return 0.0;
 }
@@ -63,33 +65,33 @@ Result<void> shift_scripts(const std::string& lag, std::vector<dam::Utterance>& 
   if (!seconds) return seconds.error();
   if (*seconds == 0) return {};
   for (dam::Utterance& u : sentences) u.script = dam::shifted_script(u.script, *seconds);
-  say(format("scripts are shifted by %+.0f ms", 1000 * *seconds));
+  say(format("scripts were shifted by %+.0f ms", 1000 * *seconds));
   return {};
 }
 
 }  // namespace
 
-void add_lag_option(CLI::App& app, CorpusSettings& settings) {
-  app.add_option("--lag", settings.lag,
-                 "By how many ms the motion comes after the sound (before it: below 0), or auto: "
-                 "found out; scripts are shifted by it")
+void add_lag_option(OptionTable& cli, CorpusSettings& settings) {
+  cli.add("--lag", settings.lag,
+          "Delay of the motion after the sound in ms (negative: before), by which scripts "
+          "are shifted; auto: estimated")
       ->check([](const std::string& text) -> std::string {
         char* end = nullptr;
         const double value = std::strtod(text.c_str(), &end);
         const bool number = !text.empty() && *end == 0 && std::abs(value) <= 1000;
-        return text == "auto" || number ? "" : "not auto, nor a number of ms up to 1000: " + text;
+        return text == "auto" || number ? ""
+                                        : "neither auto nor a number of ms up to 1000: " + text;
       })
-      ->option_text("MS|auto");
+      ->value("MS|auto");
 }
 
-void add_corpus_options(CLI::App& app, CorpusSettings& settings) {
-  app.add_option("--split-column", settings.split_column, "Column of utterances.tsv for --split")
-      ->capture_default_str();
-  app.add_option("--controls-folder", settings.controls_folder,
-                 "Folder of the corpus with the curves, ID.csv or ID.fap")
-      ->capture_default_str();
-  app.add_flag("--skip-missing", settings.skip_missing,
-               "Leave out rows that have no curves instead of stopping");
+void add_corpus_options(OptionTable& cli, CorpusSettings& settings) {
+  cli.add("--split-column", settings.split_column, "Column of utterances.tsv for --split")
+      ->show_default();
+  cli.add("--controls-folder", settings.controls_folder,
+          "Folder of the corpus with the curves, ID.csv or ID.fap")
+      ->show_default();
+  cli.add("--skip-missing", settings.skip_missing, "Skip rows without curves instead of failing");
 }
 
 Result<std::vector<std::string>> control_names(const std::vector<std::string>& items) {

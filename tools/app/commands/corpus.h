@@ -26,10 +26,10 @@ struct CorpusSettings {
 };
 
 /// Adds --split-column, --controls-folder and --skip-missing.
-void add_corpus_options(CLI::App& app, CorpusSettings& settings);
+void add_corpus_options(OptionTable& cli, CorpusSettings& settings);
 
 /// Adds --lag.
-void add_lag_option(CLI::App& app, CorpusSettings& settings);
+void add_lag_option(OptionTable& cli, CorpusSettings& settings);
 
 /// "3-13", "51" and names such as "jawOpen" to channel names ("fap3_open_jaw" ...).
 Result<std::vector<std::string>> control_names(const std::vector<std::string>& items);

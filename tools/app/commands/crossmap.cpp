@@ -1,5 +1,4 @@
 // Captured lips to the controls of a character: Appendix A of the paper.
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -10,6 +9,7 @@
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/crossmap_options.h"
 #include "tools/app/commands/face_text.h"
+#include "tools/app/commands/outputs.h"
 #include "tools/characters/crossmap/run.h"
 #include "tools/characters/crossmap/sheet.h"
 #include "tools/formats/common/json.h"
@@ -251,7 +251,7 @@ Result<int> run(const CrossmapOptions& options) {
 }
 
 const Command kCrossmap{
-    "crossmap", "Captured lips to your character's controls, by key shapes",
+    "crossmap", "Map captured lip motion to the controls of your character by key shapes",
     "  animeme crossmap take1.csv take2.csv -o curves/\n"
     "  animeme crossmap markers.c3d --unit mm --axes \"left back up\" --to arkit -o take.csv\n"
     "  animeme crossmap take.csv --to anna.glb --write-keys keys/\n"

@@ -1,11 +1,10 @@
 #include "tools/app/commands/crossmap_options.h"
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <filesystem>
 #include <utility>
 
-#include "tools/app/commands/bounds.h"
+#include "tools/app/commands/options.h"
 #include "tools/app/commands/outputs.h"
 #include "tools/formats/files/files.h"
 
@@ -59,74 +58,70 @@ std::optional<std::pair<std::string, double>> parse_fapu(const std::string& text
 }
 
 std::string problem_of_fapu(const std::string& text) {
-  return parse_fapu(text) ? "" : "'" + text + "' is no FAP unit; write MW=50";
+  return parse_fapu(text) ? "" : "'" + text + "' is not a FAP unit; write MW=50";
 }
 
 std::string problem_of_key(const std::string& text) {
   return parse_key(text) ? ""
-                         : "'" + text + "' is no key shape; write NAME=take.csv:1.24 (seconds)";
+                         : "'" + text + "' is not a key shape; write NAME=take.csv:1.24 (seconds)";
 }
 
-void add_point_options(CLI::App& app, CrossmapOptions& options) {
+void add_point_options(OptionTable& cli, CrossmapOptions& options) {
   const char* group = "Captured points";
-  const auto add = [&](CLI::Option* option) { option->group(group); };
-  add(app.add_option("--neutral", options.neutral,
-                     "The face at rest: a file of the same points (table, C3D or JSON), or seconds "
-                     "of the first recording like 0-0.4s. Without it: the stillest 0.2 seconds"));
-  add(app.add_option("--use", options.use,
-                     "Points to fit, A,B,C; without it all (of a whole face those of the mouth)")
-          ->delimiter(','));
-  add(app.add_option("--head-points", options.head,
-                     "Points that do not move with the face, A,B,C: the head is held still by "
-                     "them; none: it is still already")
-          ->delimiter(','));
-  add(app.add_option("--fapu", options.fapu,
-                     "Sizes of the captured face in its own unit, MW=38,MNS=19.5 (mouth width, "
-                     "mouth to nose); without it measured, or those of a usual face")
-          ->type_name("UNIT=SIZE")
-          ->check(written_so(problem_of_fapu))
-          ->delimiter(','));
-  add(app.add_option("--unit", options.unit, "Unit of the points")
-          ->check(CLI::IsMember({"mm", "cm", "m", "in"})));
-  add(app.add_option("--axes", options.axes,
-                     "Where x, y (and z) point to, seen by the person: \"left down back\" is a "
-                     "camera; without it the points tell"));
-  add(app.add_option("--layout", options.layout, "What numbered points are")
-          ->check(CLI::IsMember({"68", "mediapipe"})));
-  add(app.add_option("--rate", options.rate, "Frames a second, if the table has no times")
-          ->type_name("RATE")
-          ->check(frame_rate()));
-  add(app.add_option("--size", options.size,
-                     "Size of the picture, like 1280x720, where points are shares of it")
-          ->type_name("WIDTHxHEIGHT")
-          ->check(picture_size()));
+  const auto add = [&](Option* option) { option->in_group(group); };
+  add(cli.add("--neutral", options.neutral,
+              "The face at rest: a file of the same points (table, C3D or JSON), or seconds of "
+              "the first recording such as 0-0.4s. Default: the stillest 0.2 seconds"));
+  add(cli.add("--use", options.use,
+              "Points to fit, A,B,C; default: all (of a whole face those of the mouth)")
+          ->at_commas());
+  add(cli.add("--head-points", options.head,
+              "Points that do not move with the face, A,B,C: they are used to remove head "
+              "motion; none: there is no head motion")
+          ->at_commas());
+  add(cli.add("--fapu", options.fapu,
+              "Sizes of the captured face in its own unit, MW=38,MNS=19.5 (mouth width, mouth to "
+              "nose); default: measured, or those of an average face")
+          ->type("UNIT=SIZE")
+          ->check(problem_of_fapu)
+          ->at_commas());
+  add(cli.add("--unit", options.unit, "Unit of the points")->one_of("mm cm m in"));
+  add(cli.add("--axes", options.axes,
+              "Directions of x, y (and z) seen by the person: \"left down back\" is a camera; "
+              "default: detected"));
+  add(cli.add("--layout", options.layout, "Layout of numbered points")->one_of("68 mediapipe"));
+  add(cli.add("--rate", options.rate, "Frames per second, if the table has no times")
+          ->frame_rate());
+  add(cli.add("--size", options.size,
+              "Size of the picture, such as 1280x720, if points are fractions of it")
+          ->picture_size());
 }
 
-void add_key_options(CLI::App& app, CrossmapOptions& options) {
+void add_key_options(OptionTable& cli, CrossmapOptions& options) {
   const char* group = "Key shapes";
-  const auto add = [&](CLI::Option* option) { option->group(group); };
-  add(app.add_option("--shapes-wanted", options.count,
-                     "How many key shapes to find; without it the recording decides")
-          ->check(between(1, 200)));
-  add(app.add_option("--preference", options.preference,
-                     "How willing a frame is to be a key shape, below 0; the median of all pairs")
-          ->check(between(-1e9, 0)));
-  add(app.add_option("--key", options.named,
-                     "A key shape of your choice, NAME=take.csv:1.24 (seconds); once for each")
-          ->type_name("KEY=FILE:SECONDS")
-          ->check(written_so(problem_of_key)));
-  add(app.add_option("--keys", options.keys,
-                     "Folder of key shapes that --write-keys wrote and you adjusted"));
-  add(app.add_option("--contact-weight", options.contact_weight,
-                     "How much lips that meet count beside other points; 3")
-          ->check(between(0.0, 1e6)));
-  add(app.add_option(
-             "--smooth", options.smooth,
-             "Seconds (standard deviation) to average over; 0. Short closures get lost in it")
-          ->check(between(0.0, 1.0)));
-  app.add_flag("--convex", options.convex,
-               "Never go beyond the key shapes; quieter, and larger shapes are missed")
-      ->group(group);
+  const auto add = [&](Option* option) { option->in_group(group); };
+  add(cli.add("--shapes-wanted", options.count,
+              "Number of key shapes; default: chosen from the recording")
+          ->between(1, 200));
+  add(cli.add("--preference", options.preference,
+              "Preference of a frame to be a key shape, below 0; default: the median of all pairs")
+          ->between(-1e9, 0));
+  add(cli.add("--key", options.named,
+              "Use this frame as a key shape, NAME=take.csv:1.24 (seconds); may be repeated")
+          ->type("KEY=FILE:SECONDS")
+          ->check(problem_of_key));
+  add(cli.add("--keys", options.keys,
+              "Folder of key shapes that --write-keys wrote and you edited"));
+  add(cli.add("--contact-weight", options.contact_weight,
+              "Weight of lip contact relative to other points; default: 3")
+          ->between(0.0, 1e6));
+  add(cli.add("--smooth", options.smooth,
+              "Standard deviation of smoothing in seconds; default: 0. Smoothing loses short "
+              "closures")
+          ->between(0.0, 1.0));
+  cli.add("--convex", options.convex,
+          "Do not extrapolate beyond the key shapes: less noise, but larger shapes are missed")
+      ->in_group(group);
 }
 
 }  // namespace
@@ -170,35 +165,33 @@ Result<Project> project_of(const CrossmapOptions& options) {
   return out;
 }
 
-void add_options(CLI::App& app, CrossmapOptions& options) {
-  app.add_option(
-         "input", options.inputs,
-         "Recordings of points: tables with UL_x, UL_y, UL_z ... or x61, y61 ..., C3D files; "
-         "they share their key shapes. Or a project (.toml), which says all of this")
+void add_options(OptionTable& cli, CrossmapOptions& options) {
+  cli.add("input", options.inputs,
+          "Recordings of points: tables with UL_x, UL_y, UL_z ... or x61, y61 ..., or C3D "
+          "files; they share their key shapes. Or a project file (.toml) with all options")
       ->required();
-  add_output(app.add_option("-o,--output", options.output,
-                            "Curves to write: .fap, .csv, or a folder for several recordings"),
-             {".fap", ".csv"}, OutputKind::file_or_folder);
-  add_output(app.add_option("--picture", options.picture,
-                            "Picture of source, key shapes and target to write"),
-             {".svg", ".png"}, OutputKind::file);
-  add_output(app.add_option("--write-keys", options.write_keys,
-                            "Folder for the key shapes, the first guess of your character's "
-                            "controls in each, and meshes to begin with"),
-             {}, OutputKind::folder);
-  app.add_flag("--json", options.json, "Residuals by frame and region on standard output");
-  app.add_flag("--csv", options.csv, "FAPs as curves (.csv), as training takes them");
-  app.add_option("--to", options.to,
-                 "What moves your character: faps, arkit, keys (one control a key shape), a table "
-                 "of controls in each key shape (.csv), or its head (.glb, .vrm, .obj, woman)");
-  app.add_option("--points", options.points,
-                 "Feature points of an .obj or .glb head, as animeme render takes them");
-  app.add_option("--shapes", options.shapes,
-                 "OBJ files of an .obj head: what each of its controls does when it is full on");
-  app.add_option("--controls", options.controls, "Controls that may move, A,B,C; all")
-      ->delimiter(',');
-  add_key_options(app, options);
-  add_point_options(app, options);
+  cli.add("-o,--output", options.output,
+          "Curves to write: .fap, .csv, or a folder for several recordings")
+      ->output(".fap .csv", OutputKind::file_or_folder);
+  cli.add("--picture", options.picture, "Write a picture of source, key shapes and target")
+      ->output(".svg .png", OutputKind::file);
+  cli.add("--write-keys", options.write_keys,
+          "Write the key shapes to this folder, with a first guess of the character's "
+          "controls for each, and meshes to start from")
+      ->output("", OutputKind::folder);
+  cli.add("--json", options.json, "Print residuals per frame and region");
+  cli.add("--csv", options.csv, "Write FAPs as curves (.csv), as training reads them");
+  cli.add("--to", options.to,
+          "What moves your character: faps, arkit, keys (a control per key shape), a table "
+          "of controls for each key shape (.csv), or its head (.glb, .vrm, .obj, woman)");
+  cli.add("--points", options.points,
+          "Feature points of an .obj or .glb head, as of animeme render");
+  cli.add("--shapes", options.shapes,
+          "OBJ files of an .obj head: the shape of each control at full value");
+  cli.add("--controls", options.controls, "Controls that may move, A,B,C; default: all")
+      ->at_commas();
+  add_key_options(cli, options);
+  add_point_options(cli, options);
 }
 
 }  // namespace animeme::tools

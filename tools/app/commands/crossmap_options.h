@@ -8,11 +8,9 @@
 
 #include "tools/characters/crossmap/run.h"
 
-namespace CLI {
-class App;
-}  // namespace CLI
-
 namespace animeme::tools {
+
+struct OptionTable;
 
 /// What was said on the command line; it goes before what a project says.
 struct CrossmapOptions {
@@ -48,7 +46,7 @@ struct CrossmapOptions {
 Result<crossmap::Project> project_of(const CrossmapOptions& options);
 
 /// Adds them.
-void add_options(CLI::App& app, CrossmapOptions& options);
+void add_options(OptionTable& cli, CrossmapOptions& options);
 
 /// Runs the command with them.
 Result<int> run(const CrossmapOptions& options);

@@ -1,14 +1,13 @@
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <functional>
 #include <optional>
 
 #include "codec/decode/fill.h"
 #include "fap/rate_text.h"
-#include "tools/app/commands/bounds.h"
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/face_text.h"
 #include "tools/app/commands/plane_file.h"
+#include "tools/app/commands/report.h"
 
 namespace animeme::tools {
 
@@ -132,7 +131,7 @@ void leave_out_what_is_missing(const Decoded& decoded, DecodeOptions& options) {
 
 Result<std::string> body_text(const Decoded& decoded, const std::string& input) {
   if (decoded.bodies == 0) {
-    return make_error(Code::not_found, "there is no body in this: name a FAP text with -o")
+    return make_error(Code::not_found, "there is no body here: name a FAP text with -o")
         .in_file(input);
   }
   return fba::write_bap_text(decoded.motion.body);
@@ -185,11 +184,10 @@ Result<int> run(DecodeOptions options) {
   if (auto done = published(body_file, options.bap); !done) return done.error();
   if (auto done = published(face_file, options.output); !done) return done.error();
   const auto told = [](const std::string& path, std::int64_t count, const char* what) {
-    if (path.empty()) return;
-    say(name_of_output(path) + ": " + std::to_string(count) + " " + what + "frames");
+    if (!path.empty()) report_output(path, std::to_string(count) + what, {{"frames", count}});
   };
-  told(options.output, *frames, "");
-  told(options.bap, decoded->bodies, "body ");
+  told(options.output, *frames, " frames");
+  told(options.bap, decoded->bodies, " body frames");
   if (options.bap.empty() && decoded->bodies > 0) {
     say(options.input + ": there are " + std::to_string(decoded->bodies) +
         " body frames too, --bap writes them");
@@ -197,31 +195,24 @@ Result<int> run(DecodeOptions options) {
   return kOk;
 }
 
-void add_options(CLI::App& app, DecodeOptions& options) {
-  app.add_option("input", options.input, "FBA stream, or an mp4, mkv or ts file with one")
-      ->required();
-  add_output(
-      app.add_option("-o,--output", options.output, "FAP text to write, - for standard output"),
-      {".fap", ".txt"});
-  add_output(app.add_option("--bap", options.bap,
-                            "BAP text with the body to write, - for standard output"),
-             {".bap", ".txt"});
+void add_options(OptionTable& cli, DecodeOptions& options) {
+  cli.add("input", options.input, "FBA stream, or an .mp4, .mkv or .ts file with one")->required();
+  cli.add("-o,--output", options.output, "FAP text to write, - for standard output")
+      ->output(".fap .txt");
+  cli.add("--bap", options.bap, "BAP text with the body to write, - for standard output")
+      ->output(".bap .txt");
   FaceText& face = options.face;
-  CLI::Option* coded = app.add_flag("--coded", face.coded,
-                                    "The values as they are coded: sides that a stream leaves to "
-                                    "be mirrored are missing, skipped frames too; with --exact");
-  CLI::Option* fill = app.add_flag("--fill", face.fill,
-                                   "Every FAP: those that the stream never codes are at rest, 0");
-  CLI::Option* expand = app.add_flag(
-      "--expand", face.expand,
-      "FAP 1 and 2 (visemes, expressions) as low-level FAPs, for players that know no others");
-  CLI::Option* rate =
-      app.add_option("--rate", options.rate,
-                     "Frames a second of the text: between frames values lie between them")
-          ->type_name("RATE")
-          ->check(frame_rate());
-  add_exact_option(app, face.exact);
-  for (CLI::Option* option : {fill, expand, rate}) option->excludes(coded);
+  cli.add("--coded", face.coded,
+          "Write the coded values only: mirrored sides and skipped frames are missing; with "
+          "--exact");
+  cli.add("--fill", face.fill, "Write all FAPs: those that the stream never codes are 0");
+  cli.add("--expand", face.expand,
+          "Expand FAP 1 and 2 (visemes, expressions) to low-level FAPs, for players that do "
+          "not support them");
+  cli.add("--rate", options.rate, "Resample to this frame rate, with linear interpolation")
+      ->frame_rate();
+  add_exact_option(cli, face.exact);
+  cli.get("--coded")->excludes("--fill --expand --rate");
 }
 
 }  // namespace

@@ -1,10 +1,9 @@
-#include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
 
 #include "codec/decode/access_unit.h"
 #include "fap/detail/text_scanner.h"
 #include "tools/app/commands/common.h"
+#include "tools/app/commands/outputs.h"
 #include "tools/formats/common/json.h"
 #include "tools/formats/media/container.h"
 
@@ -42,10 +41,10 @@ Result<Json> write_face(const DemuxOptions& options) {
               {"warnings", container->warnings}};
 }
 
-bool ends_as(const std::string& ending, const std::vector<std::string>& endings) {
-  return std::any_of(endings.begin(), endings.end(), [&](const std::string& one) {
-    return fap::detail::lower_case(one) == ending;
-  });
+// Whether `endings`, separated by blanks, have this one.
+bool ends_as(const std::string& ending, const std::string& endings) {
+  const std::string all = " " + fap::detail::lower_case(endings) + " ";
+  return all.find(" " + ending + " ") != std::string::npos;
 }
 
 // Which of the three each -o is, by its ending; a sentence if that cannot be.
@@ -55,10 +54,10 @@ std::string sort_outputs(DemuxOptions& options) {
     if (ending == ".fap" || ending == ".bap") {
       return "-o " + output + ": animeme decode writes text; demux writes the stream, .fba";
     }
-    const bool face = output == "-" || ending.empty() || ends_as(ending, stream_endings());
-    std::string& place = face                                     ? options.face
-                         : ends_as(ending, dam::script_endings()) ? options.script
-                                                                  : options.audio;
+    const bool face = output == "-" || ending.empty() || ends_as(ending, kStreamEndings);
+    std::string& place = face                                                  ? options.face
+                         : ends_as(ending, joined(dam::script_endings(), " ")) ? options.script
+                                                                               : options.audio;
     if (!place.empty()) return "-o " + output + " and " + place + " are the same; give one of them";
     place = output;
   }
@@ -71,7 +70,7 @@ Result<int> run(DemuxOptions options) {
     return usage_error("nothing to do: name what to write, -o face.fba, .wav or .TextGrid");
   }
   if (options.json && options.face == "-") {
-    return usage_error("--json and the face on - both want the standard output");
+    return usage_error("--json and the face both write to standard output");
   }
   Json json = Json::object();
   if (!options.face.empty()) {
@@ -89,8 +88,9 @@ Result<int> run(DemuxOptions options) {
   if (!options.script.empty()) {
     const auto script = speech::carried_script(options.input, {}, terminal_log());
     if (!script) {
-      return make_error(Code::not_found,
-                        "carries no words and phones, as speak puts into .mp4, .mkv and .m3u8")
+      return make_error(
+                 Code::not_found,
+                 "there are no words and phones, which speak writes into .mp4, .mkv and .m3u8")
           .in_file(options.input);
     }
     const std::string text = dam::write_script(*script, extension_of(options.script));
@@ -105,32 +105,30 @@ Result<int> run(DemuxOptions options) {
   return kOk;
 }
 
-void add_options(CLI::App& app, DemuxOptions& options) {
-  app.add_option("input", options.input, "mp4, mkv, ts, m3u8 or mpd file with a face")->required();
-  add_output(app.add_option("-o,--output", options.outputs,
-                            "What to write, once or more: .fba (the face's stream; - is standard "
-                            "output), .wav .m4a (sound), .TextGrid .tsv .pho .vtt (words)"),
-             {})
-      ->allow_extra_args(false);
-  add_output(app.add_option("--face", options.face,
-                            "As -o, whatever the name: raw FBA stream, - for standard output"),
-             stream_endings());
-  add_output(app.add_option("--audio", options.audio,
-                            "Likewise: sound, .wav, or .m4a and others as it is"),
-             {});
-  add_output(
-      app.add_option("--script", options.script,
-                     "Likewise: words and phones, of .mp4, .mkv, .m3u8: .TextGrid, .tsv, .pho, "
-                     "or .vtt (words)"),
-      dam::script_endings(), OutputKind::file);
-  app.add_flag("--es-headers", options.headers,
-               "Begin the stream with its visual object headers (old decoders want none)");
-  app.add_flag("--json", options.json, "Machine-readable summary on standard output");
+void add_options(OptionTable& cli, DemuxOptions& options) {
+  cli.add("input", options.input, ".mp4, .mkv, .ts, .m3u8 or .mpd file with a face")->required();
+  cli.add("-o,--output", options.outputs,
+          "File to write; may be repeated: .fba (the stream of the face; - is standard "
+          "output), .wav .m4a (sound), .TextGrid .tsv .pho .vtt (words)")
+      ->output("")
+      ->one_at_a_time();
+  cli.add("--face", options.face,
+          "Raw FBA stream to write, whatever its name; - for standard output")
+      ->output(kStreamEndings);
+  cli.add("--audio", options.audio, "Sound to write: .wav, or .m4a and others without re-encoding")
+      ->output("");
+  cli.add("--script", options.script,
+          "Words and phones to write, from .mp4, .mkv, .m3u8: .TextGrid, .tsv, .pho, or .vtt "
+          "(words)")
+      ->output(joined(dam::script_endings(), " "), OutputKind::file);
+  cli.add("--es-headers", options.headers,
+          "Start the stream with its visual object headers (old decoders need none)");
+  cli.add("--json", options.json, "Print a machine-readable summary");
 }
 
 }  // namespace
 
-const Command kDemux{"demux", "Take face, voice and words out of a file",
+const Command kDemux{"demux", "Extract face, sound and words from a file",
                      "  animeme demux talk.mp4 -o talk.fba -o voice.m4a\n"
                      "  animeme demux talk.mp4 -o talk.TextGrid    # or .vtt: its words\n"
                      "  animeme demux talk.m3u8 --audio voice.wav\n"

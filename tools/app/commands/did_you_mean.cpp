@@ -1,6 +1,5 @@
 #include "tools/app/commands/did_you_mean.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <string_view>
 
@@ -28,17 +27,17 @@ std::size_t steps_between(std::string_view a, std::string_view b) {
   return steps[a.size()][b.size()];
 }
 
-std::vector<std::string> command_names(const CLI::App& program) {
+std::vector<std::string> command_names(const OptionTable& program) {
   std::vector<std::string> names;
-  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
-    names.push_back(command->get_name());
-  }
+  for (const OptionTable& command : program.commands) names.push_back(command.name);
   return names;
 }
 
-void add_option_names(const CLI::App& app, std::vector<std::string>& names) {
-  for (const CLI::Option* option : app.get_options()) {
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+void add_option_names(const OptionTable& table, std::vector<std::string>& names) {
+  for (const std::unique_ptr<Option>& option : table.options) {
+    for (const Option::Name& name : option->names) {
+      if (name.text.starts_with("--")) names.push_back(name.text);
+    }
   }
 }
 
@@ -61,26 +60,29 @@ std::string nearest_name(const std::string& typed, const std::vector<std::string
   return nearest;
 }
 
-std::string did_you_mean(const CLI::App& program, std::span<const char* const> arguments) {
-  const auto word = std::find_if(arguments.begin(), arguments.end(),
-                                 [](const char* text) { return text[0] != '-'; });
-  if (word == arguments.end()) return {};
-  const std::vector<std::string> commands = command_names(program);
-  const std::string name = *word;
-  if (std::find(commands.begin(), commands.end(), name) == commands.end()) {
-    return "there is no command \"" + name + "\"" + question(nearest_name(name, commands));
-  }
-  const CLI::App* const command = program.get_subcommand(name);
+std::string did_you_mean(const OptionTable& program, std::span<const char* const> words) {
+  const auto word =
+      std::find_if(words.begin(), words.end(), [](const char* text) { return text[0] != '-'; });
+  const OptionTable* table = &program;
   std::vector<std::string> options;
-  add_option_names(*command, options);
+  if (word != words.end()) {
+    const std::vector<std::string> commands = command_names(program);
+    const auto command = std::find(commands.begin(), commands.end(), *word);
+    if (command == commands.end()) {
+      return "there is no command \"" + std::string(*word) + "\"" +
+             question(nearest_name(*word, commands));
+    }
+    table = &program.commands[std::size_t(command - commands.begin())];
+    add_option_names(*table, options);
+  }
   add_option_names(program, options);
-  for (const char* argument : arguments) {
-    const std::string_view text = argument;
+  for (const char* one : words) {
+    const std::string_view text = one;
     if (text == "--") break;
     if (!text.starts_with("--")) continue;
     const std::string option(text.substr(0, text.find('=')));
     if (std::find(options.begin(), options.end(), option) != options.end()) continue;
-    return name + " has no option " + option + question(nearest_name(option, options));
+    return table->name + " has no option " + option + question(nearest_name(option, options));
   }
   return {};
 }

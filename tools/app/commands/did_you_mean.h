@@ -6,9 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
+#include "tools/app/commands/options.h"
 
 namespace animeme::tools {
 
@@ -18,8 +16,8 @@ namespace animeme::tools {
 std::string nearest_name(const std::string& typed, const std::vector<std::string>& names);
 
 /// A sentence for a command line that did not parse: the command that does not exist, or the
-/// options, and what they are like. Empty: nothing of it is wrong in that way. `arguments` are
-/// those behind the program's name.
-std::string did_you_mean(const CLI::App& program, std::span<const char* const> arguments);
+/// options, and what they are like. Empty: nothing of it is wrong in that way. `words`: those
+/// behind the program's name.
+std::string did_you_mean(const OptionTable& program, std::span<const char* const> words);
 
 }  // namespace animeme::tools

@@ -1,6 +1,5 @@
 #include "codec/encode/encode.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -8,8 +7,8 @@
 
 #include "codec/text/epf.h"
 #include "fap/rate_text.h"
-#include "tools/app/commands/bounds.h"
 #include "tools/app/commands/common.h"
+#include "tools/app/commands/outputs.h"
 #include "tools/formats/common/bit_rate.h"
 #include "tools/formats/common/json.h"
 #include "tools/formats/common/text.h"
@@ -62,7 +61,7 @@ Result<Material> read_material(const EncodeOptions& options) {
     Result<MotionInput> input = read_motion(options.input, FrameNumbers::keep);
     if (!input) return input.error();
     if (input->kind == FileKind::bap_text) {
-      return make_error(Code::not_found, "this is BAP text and holds no face: give it after --bap")
+      return make_error(Code::not_found, "this is BAP text without a face: give it after --bap")
           .in_file(options.input);
     }
     if (input->body.frames.empty() && options.bap.empty()) {
@@ -76,7 +75,7 @@ Result<Material> read_material(const EncodeOptions& options) {
     if (!input) return input.error();
     if (input->body.frames.empty()) {
       return make_error(Code::not_found,
-                        "this holds no body: --bap wants BAP text (version 3.1 or 3.2), or a "
+                        "there is no body here: --bap needs BAP text (version 3.1 or 3.2), or a "
                         "stream with a body")
           .in_file(options.bap);
     }
@@ -120,8 +119,8 @@ Result<Material> read_clip(const EncodeOptions& options) {
   } else if (!material->body.frames.empty() && material->body.rate != material->face.rate) {
     return make_error(Code::invalid_argument,
                       "the body has " + fap::format_rate(material->body.rate) +
-                          " frames a second and the face " + fap::format_rate(material->face.rate) +
-                          ": convert one of them")
+                          " frames per second and the face " +
+                          fap::format_rate(material->face.rate) + ": convert one of them")
         .in_file(options.bap.empty() ? options.input : options.bap);
   }
   return material;
@@ -191,8 +190,8 @@ void tell(const EncodeOptions& options, const Bytes& bytes, const fba::EncodeRep
   say(line);
   if (report.limited > 0) {
     warn(
-        format("%zu values lie beyond what a plane can tell, +-1860 quantiser steps: the nearest "
-               "that can be told are coded",
+        format("%zu values are out of the range of a plane, +-1860 quantiser steps, and were "
+               "clipped to it",
                report.limited));
   }
   if (options.kbps > 0 && outcome.kbps > options.kbps * 1.001) {
@@ -226,7 +225,7 @@ const char* contradiction(const EncodeOptions& options, Preset preset) {
     return "nothing to code: name a FAP text, or a BAP text with --bap";
   }
   if ((preset == Preset::exact) != !options.epf.empty()) {
-    return preset == Preset::exact ? "--preset exact wants an encoder parameter file, --epf"
+    return preset == Preset::exact ? "--preset exact needs an encoder parameter file, --epf"
                                    : "--epf decides everything: only --preset exact goes with it";
   }
   for (const double limit : {options.rms, options.kbps, options.still_below}) {
@@ -235,9 +234,9 @@ const char* contradiction(const EncodeOptions& options, Preset preset) {
   const bool chooses = options.rms > 0 || options.kbps > 0;
   const bool shapes = chooses || options.still_below > 0 || options.skip_still;
   if (shapes && preset != Preset::file && preset != Preset::live) {
-    return "--rms, --kbps, --still-below and --skip-still want --preset file or live";
+    return "--rms, --kbps, --still-below and --skip-still need --preset file or live";
   }
-  if (options.kept_ranges && preset != Preset::file) return "--kept-ranges wants --preset file";
+  if (options.kept_ranges && preset != Preset::file) return "--kept-ranges needs --preset file";
   if (options.intra_seconds && options.intra_period) {
     return "--intra-seconds and --intra-period say the same: leave one out";
   }
@@ -268,67 +267,69 @@ Result<int> run(const EncodeOptions& given) {
   return kOk;
 }
 
-void add_options(CLI::App& app, EncodeOptions& options) {
-  app.add_option("input", options.input, "FAP text (also .fba or a container, to code it anew)");
-  app.add_option("--bap", options.bap, "BAP text (or a stream) with the body");
-  add_output(
-      app.add_option("-o,--output", options.output, "FBA stream to write, - for standard output"),
-      stream_endings())
+std::string parse_preset(const std::string& text, std::optional<Preset>& preset) {
+  preset = text == "file"    ? Preset::file
+           : text == "live"  ? Preset::live
+           : text == "exact" ? Preset::exact
+                             : Preset::plain;
+  return {};
+}
+
+std::string parse_start_codes(const std::string& text, std::optional<fba::PlaneStartCodes>& codes) {
+  codes = text == "all"     ? fba::PlaneStartCodes::all
+          : text == "intra" ? fba::PlaneStartCodes::intra
+                            : fba::PlaneStartCodes::none;
+  return {};
+}
+
+void add_options(OptionTable& cli, EncodeOptions& options) {
+  cli.add("input", options.input, "FAP text (also .fba or a container, to encode it again)");
+  cli.add("--bap", options.bap, "BAP text (or a stream) with the body");
+  cli.add("-o,--output", options.output, "FBA stream to write, - for standard output")
+      ->output(kStreamEndings)
       ->required();
-  app.add_option("--epf", options.epf,
-                 "Encoder parameter file: every decision comes from it, the bytes are determined");
-  const std::map<std::string, Preset> presets = {{"plain", Preset::plain},
-                                                 {"file", Preset::file},
-                                                 {"live", Preset::live},
-                                                 {"exact", Preset::exact}};
-  app.add_option(
-         "--preset", options.preset,
-         "plain: all that the clip has, in every plane (the default)\n"
-         "file: the smallest stream; FAPs at rest are left out, right sides that equal "
-         "their left ones are left to the decoder (decode --fill shows them)\n"
-         "live: all that the clip has, in the tightest ranges between points where receivers can "
-         "join, every 2 s\n"
-         "exact: as --epf says (the default with --epf)")
-      ->transform(CLI::CheckedTransformer(presets).description(""));
-  app.add_option("--rms", options.rms,
-                 "file: fewest bits with at most this error, FAP units RMS over the FAPs that "
-                 "move (half quantiser steps for angles and bodies); 2 is not visible")
-      ->check(between(0.0, 1e6));
-  app.add_option("--kbps", options.kbps, "file: smallest error at this rate, kbit/s")
-      ->check(between(0.0, 1e6));
-  app.add_option("--still-below", options.still_below,
-                 "file: FAPs that move by less than this altogether are held still, FAP units")
-      ->check(between(0.0, 1e6));
-  app.add_flag("--skip-still", options.skip_still,
-               "file: do not send planes in which nothing moves (receivers hold the one before)");
-  app.add_flag(
-      "--kept-ranges", options.kept_ranges,
-      "file: the first plane is coarse and tells the ranges of all others more finely; some "
-      "5 % less on speech, for players that keep ranges as numbers of levels");
-  app.add_option("--quant", options.quant,
-                 "Quantiser of face and body; 1 (the default) is not visible, 0 lossless up to "
-                 "+-1860")
-      ->check(between(0, 31));
-  app.add_option("--intra-seconds", options.intra_seconds,
-                 "Seconds between points where receivers can join (intra planes); 0: only where "
-                 "needed (live: 2)")
-      ->check(at_least_zero());
-  app.add_option("--intra-period", options.intra_period, "The same in frames")
-      ->check(at_least_zero());
-  const std::map<std::string, fba::PlaneStartCodes> names = {{"none", fba::PlaneStartCodes::none},
-                                                             {"intra", fba::PlaneStartCodes::intra},
-                                                             {"all", fba::PlaneStartCodes::all}};
-  app.add_option("--plane-start-codes", options.start_codes,
-                 "Planes that get a start code, byte aligned: none, intra (the default of live) or "
-                 "all")
-      ->transform(CLI::CheckedTransformer(names).description(""));
-  app.add_flag("--json", options.json, "What was written and chosen, machine-readable");
-  app.add_flag("--old-codes", options.old_codes, "Write plane start codes of the 1999 edition");
+  cli.add("--epf", options.epf,
+          "Encoder parameter file: it makes all decisions, so that the bytes are determined");
+  cli.add("--preset", parsed<parse_preset>(options.preset),
+          "plain: all values of the clip, in every plane (the default)\nfile: smallest size; "
+          "FAPs at rest are left out, and right sides that equal their left ones are "
+          "mirrored by the decoder (decode --fill writes them)\nlive: all values of the clip, "
+          "in the tightest ranges between random access points, every 2 s\nexact: as --epf "
+          "says (the default with --epf)")
+      ->one_of("plain file live exact");
+  cli.add("--rms", options.rms,
+          "file: smallest size with at most this error, FAP units RMS over the FAPs that "
+          "move (half quantiser steps for angles and bodies); 2 is not visible")
+      ->between(0.0, 1e6);
+  cli.add("--kbps", options.kbps, "file: target bit rate, kbit/s")->between(0.0, 1e6);
+  cli.add("--still-below", options.still_below,
+          "file: hold FAPs still whose whole range is below this, FAP units")
+      ->between(0.0, 1e6);
+  cli.add("--skip-still", options.skip_still,
+          "file: do not send planes without motion (receivers hold the previous one)");
+  cli.add("--kept-ranges", options.kept_ranges,
+          "file: the first plane is coarse and the ranges of the others are finer; about 5 % "
+          "smaller for speech, for players that keep ranges as numbers of levels");
+  cli.add("--quant", options.quant,
+          "Quantiser of face and body; the error of 1 (the default) is not visible, 0 is "
+          "lossless up to +-1860")
+      ->between(0, 31);
+  cli.add("--intra-seconds", options.intra_seconds,
+          "Seconds between random access points (intra planes); 0: only where needed (live: "
+          "2)")
+      ->at_least_zero();
+  cli.add("--intra-period", options.intra_period, "The same in frames")->at_least_zero();
+  cli.add("--plane-start-codes", parsed<parse_start_codes>(options.start_codes),
+          "Planes that get a byte-aligned start code: none, intra (the default of live) or "
+          "all")
+      ->one_of("none intra all");
+  cli.add("--json", options.json, "Print what was written and chosen");
+  cli.add("--old-codes", options.old_codes, "Write plane start codes of the 1999 edition");
 }
 
 }  // namespace
 
-const Command kEncode{"encode", "Code FAP and BAP text as an FBA stream",
+const Command kEncode{"encode", "Encode FAP and BAP text as an FBA stream",
                       "  animeme encode talk.fap -o talk.fba\n"
                       "  animeme encode talk.fap --preset file -o small.fba\n"
                       "  animeme encode talk.fap --preset file --rms 2 -o smaller.fba\n"

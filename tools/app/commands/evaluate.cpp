@@ -1,6 +1,5 @@
 #include "dam/evaluation/evaluate.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -328,7 +327,7 @@ Result<int> run(const EvaluateOptions& options) {
 }
 
 const Command kEvaluate{
-    "evaluate", "Error of synthesis against recorded motion",
+    "evaluate", "Measure the error of synthesis against recorded motion",
     "  animeme evaluate builtin grid_s1 --split test --seen-split train --picture curves.svg\n"
     "  animeme evaluate a.dam grid_s1 --split test --against b.dam\n"
     "  animeme evaluate me.dam my_corpus --split test --report me.html\n"

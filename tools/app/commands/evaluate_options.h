@@ -9,10 +9,6 @@
 #include "tools/app/commands/corpus.h"
 #include "tools/app/commands/face_stream.h"
 
-namespace CLI {
-class App;
-}  // namespace CLI
-
 namespace animeme::tools {
 
 /// What was said on the command line.
@@ -41,7 +37,7 @@ struct EvaluateOptions {
 };
 
 /// Adds them.
-void add_options(CLI::App& app, EvaluateOptions& options);
+void add_options(OptionTable& cli, EvaluateOptions& options);
 
 /// Runs the command with them.
 Result<int> run(const EvaluateOptions& options);

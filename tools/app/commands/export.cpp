@@ -1,5 +1,4 @@
 // Motion for other programs: what they know are ARKit's shapes, visemes, mouth shapes or glTF.
-#include <CLI/CLI.hpp>
 #include <filesystem>
 
 #include "fap/rate_text.h"
@@ -7,6 +6,7 @@
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/export_options.h"
 #include "tools/app/commands/head_options.h"
+#include "tools/app/commands/report.h"
 #include "tools/app/commands/script_options.h"
 #include "tools/formats/exchange/arkit.h"
 #include "tools/formats/exchange/visemes.h"
@@ -20,9 +20,9 @@ namespace {
 
 // Options that were given for nothing, in a sentence; empty: there are none.
 std::string idle_options(const ExportOptions& options, const std::string& what, bool from_script) {
-  const auto given = [](const std::vector<const CLI::Option*>& list) {
-    for (const CLI::Option* option : list) {
-      if (option->count() > 0) return option->get_name();
+  const auto given = [](const std::vector<const Option*>& list) {
+    for (const Option* option : list) {
+      if (option->given()) return option->name();
     }
     return std::string();
   };
@@ -92,8 +92,11 @@ Result<int> write_arkit(const ExportOptions& options, std::vector<std::uint8_t> 
   const std::string text =
       csv ? exchange::write_live_link(curves) : exchange::write_arkit_json(curves, sound);
   if (auto written = write_file(options.output, text); !written) return written.error();
-  say(options.output + ": " + std::to_string(curves.frames.size()) + " frames of 52 shapes, " +
-      fap::format_rate(curves.rate) + " frames a second");
+  const std::string rate = fap::format_rate(curves.rate);
+  report_output(
+      options.output,
+      std::to_string(curves.frames.size()) + " frames of 52 shapes, " + rate + " frames per second",
+      {{"frames", curves.frames.size()}, {"rate", rate}});
   return kOk;
 }
 
@@ -123,7 +126,7 @@ Result<int> write_avatar(const ExportOptions& options, std::vector<std::uint8_t>
 Result<int> write_head(const ExportOptions& options, std::vector<std::uint8_t> bytes) {
   if (moves_by_itself(options.head)) return write_avatar(options, std::move(bytes));
   if (!options.sounds.empty()) {
-    return usage_error("--sound is for a head of your own (.glb, .vrm); --audio names a sound");
+    return usage_error("--sound is for your own head (.glb, .vrm); --audio names a sound");
   }
   if (const std::string wrong = problem_of_built_head(options.output, options.head);
       !wrong.empty()) {
@@ -146,9 +149,14 @@ Result<int> write_head(const ExportOptions& options, std::vector<std::uint8_t> b
   if (!file) return file.error();
   if (auto written = write_file(options.output, *file); !written) return written.error();
   progress.clear();
-  say(options.output + ": head \"" + head->name + "\", " + std::to_string(clip->frames.size()) +
-      " keys, " + fap::format_rate(clip->rate) + " a second, " +
-      std::to_string(file->size() / 1000) + " kB");
+  const std::string rate = fap::format_rate(clip->rate);
+  report_output(options.output,
+                "head \"" + head->name + "\", " + std::to_string(clip->frames.size()) + " keys, " +
+                    rate + " per second, " + std::to_string(file->size() / 1000) + " kB",
+                {{"head", head->name},
+                 {"frames", clip->frames.size()},
+                 {"rate", rate},
+                 {"bytes", file->size()}});
   return kOk;
 }
 
@@ -239,12 +247,16 @@ Result<int> write_visemes(const ExportOptions& options, const std::string& what,
   }
   if (auto written = write_file(options.output, text); !written) return written.error();
   if (what != "visemes") {
-    say(name_of_output(options.output) + ": mouth shapes of " +
-        std::to_string(track.events.size()) + " visemes");
+    report_output(options.output,
+                  "mouth shapes of " + std::to_string(track.events.size()) + " visemes",
+                  {{"visemes", track.events.size()}});
   } else {
-    say(options.output + ": " + std::to_string(track.events.size()) + " events, " +
-        std::to_string(track.frames.size()) + " frames of 15 visemes, " +
-        fap::format_rate(track.rate) + " frames a second");
+    const std::string rate = fap::format_rate(track.rate);
+    report_output(
+        options.output,
+        std::to_string(track.events.size()) + " events, " + std::to_string(track.frames.size()) +
+            " frames of 15 visemes, " + rate + " frames per second",
+        {{"visemes", track.events.size()}, {"frames", track.frames.size()}, {"rate", rate}});
   }
   return kOk;
 }
@@ -258,12 +270,15 @@ Result<int> run(const ExportOptions& given) {
   if (options.output == "-" && options.format.empty()) {
     return usage_error("for standard output name a format: -f tsv, xml, json or dat");
   }
+  if (const std::string wrong = problem_with_report(); options.output == "-" && !wrong.empty()) {
+    return usage_error(wrong);
+  }
   const Result<fap::Rate> rate = fap::parse_rate(options.rate);
   if (!rate) return rate.error();
   // Before the input is read, so that a wrong name is told at once.
   const std::string named = what_of(options, false);
   if (!options.format.empty() && named != "rhubarb") {
-    return usage_error("-f is for mouth shapes of Rhubarb (--what rhubarb)");
+    return usage_error("-f is for Rhubarb mouth shapes (--what rhubarb)");
   }
   if (const std::string wrong = wrong_extension(named, options.output);
       options.format.empty() && !wrong.empty()) {
@@ -286,7 +301,7 @@ Result<int> run(const ExportOptions& given) {
     return usage_error(idle);
   }
   if (!options.more.empty() && !(what == "head" && moves_by_itself(options.head))) {
-    return usage_error("several clips are for a head of your own: --head me.glb -o talk.glb");
+    return usage_error("several clips need your own head: --head me.glb -o talk.glb");
   }
   if (what == "arkit" || what == "head") {
     if (!options.script.empty()) {
@@ -316,12 +331,12 @@ Result<int> run(const ExportOptions& given) {
 }
 
 const Command kExport{
-    "export", "Turn a face into curves for Unreal, Blender, Unity, web avatars or scripts",
+    "export", "Convert a face to curves for Unreal, Blender, Unity, web avatars or scripts",
     "  animeme export talk.mp4 -o talk.csv\n"
     "  animeme export talk.fap --audio voice.wav -o talk.json\n"
     "  animeme export talk.fba --head man -o talk.glb\n"
-    "  animeme export hello.mp4 bye.fba --head me.glb -o me_talks.glb    # your file, with both in "
-    "it\n"
+    "  animeme export hello.mp4 bye.fba --head me.glb -o me_talks.glb    # your file with both "
+    "animations\n"
     "  animeme export talk.fap -o talk.visemes.json\n"
     "  animeme export talk.fap --script words.tsv --audio voice.wav -o talk.visemes.json\n"
     "  animeme export words.tsv --rate 60 -o words.visemes.csv\n"
@@ -329,8 +344,7 @@ const Command kExport{
     "  animeme export talk.mp4 -o talk.talkinghead.json   # visemes, vtimes, vdurations, words\n"
     "  animeme export voice.wav -f xml -o voice.xml       # as rhubarb -f xml voice.wav\n"
     "\n"
-    "Visemes are viseme_sil, PP, FF, TH, DD, kk, CH, SS, nn, RR, aa, E, I, O, U: the morph "
-    "targets\n"
+    "Visemes are viseme_sil, PP, FF, TH, DD, kk, CH, SS, nn, RR, aa, E, I, O, U: the morph targets "
     "of Ready Player Me and Oculus avatars. In three.js, with the .visemes.json as `track`:\n"
     "  const frame = track.frames[Math.min(Math.floor(t * track.fps), track.frames.length - 1)];\n"
     "  track.names.forEach((name, i) =>\n"

@@ -1,12 +1,12 @@
 #include "tools/app/commands/face_stream.h"
-#include "tools/app/commands/bounds.h"
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
 
 #include "codec/encode/encode.h"
 #include "tools/app/commands/interrupt.h"
+#include "tools/app/commands/options.h"
+#include "tools/app/commands/report.h"
 #include "tools/formats/common/bit_rate.h"
 #include "tools/formats/common/text.h"
 #include "tools/formats/files/cost.h"
@@ -14,28 +14,27 @@
 
 namespace animeme::tools {
 
-void add_coding_options(CLI::App& app, StreamSettings& settings) {
-  CLI::Option* quant =
-      app.add_option("--quant", settings.quant,
-                     "Quantiser fap_quant; 1 is not visible, 0 lossless up to +-1860")
-          ->check(between(0, 31))
-          ->capture_default_str();
-  app.add_option("--rms", settings.rms,
-                 "Fewest bits with at most this error, FAP units RMS; 2 is not visible")
-      ->check(between(1e-3, 1e6))
-      ->excludes(quant);
-  app.add_option("--kbps", settings.kbps, "Smallest error at this rate of the face, kbit/s")
-      ->check(between(1e-3, 1e6))
-      ->excludes(quant);
+void add_coding_options(OptionTable& cli, StreamSettings& settings) {
+  cli.add("--quant", settings.quant,
+          "Quantiser (fap_quant); the error of 1 is not visible, 0 is lossless up to +-1860")
+      ->between(0, 31)
+      ->show_default();
+  cli.add("--rms", settings.rms,
+          "Smallest size with at most this error, FAP units RMS; 2 is not visible")
+      ->between(1e-3, 1e6)
+      ->excludes("--quant");
+  cli.add("--kbps", settings.kbps, "Target bit rate of the face, kbit/s")
+      ->between(1e-3, 1e6)
+      ->excludes("--quant");
 }
 
-void add_stream_options(CLI::App& app, StreamSettings& settings) {
-  add_coding_options(app, settings);
-  app.add_option("--intra-seconds", settings.intra_seconds,
-                 "Seconds between points where playing can begin, in containers; 0: one point")
-      ->option_text("SECONDS=5")
-      ->check(at_least_zero())
-      ->capture_default_str();
+void add_stream_options(OptionTable& cli, StreamSettings& settings) {
+  add_coding_options(cli, settings);
+  cli.add("--intra-seconds", settings.intra_seconds,
+          "Containers: seconds between random access points; 0: the first plane only")
+      ->value("SECONDS=5")
+      ->at_least_zero()
+      ->show_default();
 }
 
 fba::EncodeOptions encode_options(const StreamSettings& settings) {
@@ -65,23 +64,24 @@ Result<fba::AccessUnits> access_units(const FaceInput& face, const StreamSetting
   return fba::split_access_units(*stream);
 }
 
-void add_sound_options(CLI::App& app, SoundSettings& settings, bool copy) {
-  app.add_option("--audio-codec", settings.codec,
-                 copy ? "Coding of the sound: aac, opus, or copy for sound that is one of them; "
-                        "default: aac, where the file takes it"
-                      : "Coding of the sound: aac or opus; default: aac, where the file takes it")
-      ->option_text("CODEC")
-      ->check(copy ? CLI::IsMember({"aac", "opus", "copy"}) : CLI::IsMember({"aac", "opus"}));
-  app.add_option("--audio-bitrate", settings.bit_rate,
-                 "Bits a second of the sound; default: 64000 for aac, 40000 for opus")
-      ->option_text("6000..320000")
-      ->check(between(6000, 320000));
+void add_sound_options(OptionTable& cli, SoundSettings& settings, bool copy) {
+  cli.add("--audio-codec", settings.codec,
+          copy ? "Codec of the sound: aac, opus, or copy for sound in one of them; default: aac if "
+                 "the file supports it"
+               : "Codec of the sound: aac or opus; default: aac if the file supports it")
+      ->value("CODEC")
+      ->one_of(copy ? "aac opus copy" : "aac opus");
+  cli.add("--audio-bitrate", settings.bit_rate,
+          "Bits per second of the sound; default: 64000 for aac, 40000 for opus")
+      ->value("6000..320000")
+      ->between(6000, 320000);
 }
 
-void add_subtitles_option(CLI::App& app, bool& subtitles) {
-  app.add_flag("--subtitles", subtitles,
-               "mp4: words and phones as subtitles that players list, as in .mkv and .m3u8; ffmpeg "
-               "then copies the file to .mkv with -c:s srt only");
+void add_subtitles_option(OptionTable& cli, bool& subtitles) {
+  cli.add(
+      "--subtitles", subtitles,
+      "mp4: write words and phones as subtitles that players list, as in .mkv and .m3u8; ffmpeg "
+      "then copies the file to .mkv with -c:s srt only");
 }
 
 media::AudioSettings audio_settings(const SoundSettings& settings, const std::string& path) {
@@ -93,10 +93,10 @@ media::AudioSettings audio_settings(const SoundSettings& settings, const std::st
 
 namespace {
 
-// ": face 100 planes, 4.00 s, 2.52 kbit/s, sound aac".
+// "face 100 planes, 4.00 s, 2.52 kbit/s, sound aac".
 std::string summary(const media::MuxInput& input, const media::MuxOptions& options,
                     double sound_seconds) {
-  std::string text = ": ";
+  std::string text;
   if (input.face != nullptr) {
     const fba::AccessUnits& face = *input.face;
     const fba::AccessUnit& last = face.units.back();
@@ -139,7 +139,11 @@ Result<int> write_media(const std::string& path, const media::MuxInput& input,
   std::error_code unknown;
   const std::uintmax_t bytes = std::filesystem::file_size(path, unknown);
   if (!unknown) step.made(bytes);
-  say(path + summary(input, options, written->sound_seconds));
+  Json facts = Json::object();
+  if (input.face != nullptr) facts["planes"] = input.face->units.size();
+  facts["sound_seconds"] = written->sound_seconds;
+  if (!unknown) facts["bytes"] = bytes;
+  report_output(path, summary(input, options, written->sound_seconds), facts);
   return kOk;
 }
 

@@ -20,10 +20,10 @@ struct StreamSettings {
 };
 
 /// Adds --quant, --rms and --kbps.
-void add_coding_options(CLI::App& app, StreamSettings& settings);
+void add_coding_options(OptionTable& cli, StreamSettings& settings);
 
 /// Adds the same and --intra-seconds.
-void add_stream_options(CLI::App& app, StreamSettings& settings);
+void add_stream_options(OptionTable& cli, StreamSettings& settings);
 
 /// The options for a raw stream: one intra plane. With a limit of error or rate, those of preset
 /// `file`; else every FAP of the clip is coded.
@@ -42,10 +42,10 @@ struct SoundSettings {
 };
 
 /// Adds --audio-codec and --audio-bitrate; with `copy`, sound may also be taken as it is.
-void add_sound_options(CLI::App& app, SoundSettings& settings, bool copy);
+void add_sound_options(OptionTable& cli, SoundSettings& settings, bool copy);
 
 /// Adds --subtitles.
-void add_subtitles_option(CLI::App& app, bool& subtitles);
+void add_subtitles_option(OptionTable& cli, bool& subtitles);
 
 /// For a container of this name.
 media::AudioSettings audio_settings(const SoundSettings& settings, const std::string& path);

@@ -1,12 +1,12 @@
 #include "tools/app/commands/face_text.h"
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 
 #include "fap/rate_text.h"
 #include "fap/receiver.h"
 #include "fap/resample.h"
 #include "fap/text.h"
+#include "tools/app/commands/options.h"
 #include "tools/app/commands/terminal.h"
 #include "tools/formats/common/text.h"
 
@@ -85,8 +85,8 @@ void warn_of_mixture(const std::string& path, const fap::Mask& mask) {
   low.reset(2);
   if (low == mask || low.none()) return;
   warn(path +
-       ": FAP 1 or 2 stand beside low-level FAPs, of which players show the ones or the others; "
-       "--expand makes low-level FAPs of all");
+       ": FAP 1 or 2 are used together with low-level FAPs, of which players show only one kind; "
+       "--expand converts them to low-level FAPs");
 }
 
 }  // namespace
@@ -133,11 +133,11 @@ void warn_of_rate(const std::string& path, fap::Rate rate, const std::string& re
   if (!rate.valid() || whole == rate) return;
   const double late = 60 * (rate.frames_per_second() / whole.frames_per_second() - 1);
   const std::string number = fap::format_rate(whole);
-  warn(path + ": players take whole rates only and show " + number + " frames a second for " +
-       fap::format_rate(rate) + ", which is " +
-       format("%.2f s a minute too %s; ", std::abs(late), late < 0 ? "fast" : "slow") +
-       (remedy.empty() ? "--rate " + number + " makes it right" : remedy) +
-       ". The exact rate stands behind the name");
+  warn(path + ": players support integer rates only and show " + number +
+       " frames per second instead of " + fap::format_rate(rate) + ", which is " +
+       format("%.2f s per minute too %s; ", std::abs(late), late < 0 ? "fast" : "slow") +
+       (remedy.empty() ? "--rate " + number + " corrects it" : remedy) +
+       ". The exact rate is noted after the name");
 }
 
 Result<std::int64_t> write_face_text(OutputFile& out, const std::string& path,
@@ -166,10 +166,10 @@ Result<std::int64_t> write_face_text(OutputFile& out, const std::string& path, c
   return pen.frames();
 }
 
-void add_exact_option(CLI::App& app, bool& exact) {
-  app.add_flag("--exact", exact,
-               "FAP text: not for players but as it is, with a rate like 29.97 in the header and "
-               "gaps in the numbers where frames are skipped");
+void add_exact_option(OptionTable& cli, bool& exact) {
+  cli.add("--exact", exact,
+          "FAP text as it is, not for players: fractional rates such as 29.97 in the header, "
+          "gaps in the numbers of skipped frames");
 }
 
 }  // namespace animeme::tools

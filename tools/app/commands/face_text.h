@@ -12,11 +12,9 @@
 #include "fap/result.h"
 #include "tools/formats/files/files.h"
 
-namespace CLI {
-class App;
-}
-
 namespace animeme::tools {
+
+struct OptionTable;
 
 /// Gets the coded frames of a face one by one, by ascending numbers, with what becomes of FAPs that
 /// they do not carry (GroupRules{} where nobody says it).
@@ -58,7 +56,7 @@ Result<std::int64_t> write_face_text(OutputFile& out, const std::string& path, c
 Result<std::int64_t> write_face_text(OutputFile& out, const std::string& path,
                                      const FaceText& text);
 /// --exact, the same in all commands that write FAP text.
-void add_exact_option(CLI::App& app, bool& exact);
+void add_exact_option(OptionTable& cli, bool& exact);
 
 /// Warns that `rate` cannot stand in the header of a text for players, if it cannot; `remedy` is
 /// the rest of the sentence, "--rate 30 makes it so" by itself if empty.

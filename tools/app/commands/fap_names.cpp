@@ -32,10 +32,9 @@ Result<std::vector<int>> fap_numbers(const std::vector<std::string>& names) {
     const int last =
         dash == std::string::npos ? first : number_of(std::string_view(name).substr(dash + 1));
     if (first == 0 || last < first) {
-      return make_error(Code::invalid_argument,
-                        name +
-                            " is no FAP; give numbers 3 to 68, names like open_jaw or ranges "
-                            "like 3-13");
+      return make_error(Code::invalid_argument, name +
+                                                    " is not a FAP; write numbers 3 to 68, names "
+                                                    "such as open_jaw or ranges such as 3-13");
     }
     for (int fap = first; fap <= last; ++fap) numbers.push_back(fap);
   }

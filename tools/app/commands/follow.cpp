@@ -2,7 +2,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cerrno>
 #include <cmath>
@@ -11,9 +10,9 @@
 
 #include "dam/speaking/stream.h"
 #include "fap/rate_text.h"
-#include "tools/app/commands/bounds.h"
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/motion_options.h"
+#include "tools/formats/common/json.h"
 #include "tools/formats/exchange/curves.h"
 #include "tools/speech/talking/heard_face.h"
 #include "tools/speech/talking/phone_line.h"
@@ -34,6 +33,7 @@ struct FollowOptions {
   std::string language = "en";
   double delay = speech::HeardFaceOptions().delay;
   LengthLimit length;
+  bool json = false;
 };
 
 Error in_line(std::int64_t line, const std::string& what) {
@@ -46,15 +46,25 @@ Result<bool> next_line(std::istream& in, std::string& line) {
   std::array<char, kMostOfLine> buffer{};
   if (!in.getline(buffer.data(), kMostOfLine)) {
     if (in.eof() || in.gcount() + 1 < kMostOfLine) return false;
-    return make_error(Code::syntax, "a line of more than 4 kB holds no phone");
+    return make_error(Code::syntax, "a line of more than 4 kB is not a phone");
   }
   line = buffer.data();
   return true;
 }
 
-Result<void> print_rows(const dam::Signal& signal) {
+// As a table of curves, or as an object per line.
+Result<void> print_rows(const dam::Signal& signal, bool json) {
   for (std::size_t frame = 0; frame < signal.frames(); ++frame) {
-    std::fputs(exchange::write_curve_row(signal, frame).c_str(), stdout);
+    if (!json) {
+      std::fputs(exchange::write_curve_row(signal, frame).c_str(), stdout);
+      continue;
+    }
+    Json controls = Json::object();
+    for (std::size_t c = 0; c < signal.names.size(); ++c) {
+      controls[signal.names[c]] = signal.at(frame, c);
+    }
+    const Json row = {{"time_s", signal.time(frame)}, {"controls", controls}};
+    std::printf("%s\n", row.dump().c_str());
   }
   if (std::fflush(stdout) == 0) return {};
   return make_error(Code::io, "the curves cannot be written: nobody reads standard output");
@@ -105,7 +115,7 @@ Result<int> follow_sound(const FollowOptions& options, const dam::Model& model,
   if (bare) {
     if (auto ok = open(bare->sample_rate); !ok) return ok.error();
   }
-  print_header(model);
+  if (!options.json) print_header(model);
   std::array<std::uint8_t, 8192> bytes;
   std::vector<float> samples;
   std::uint64_t count = 0;
@@ -126,14 +136,14 @@ Result<int> follow_sound(const FollowOptions& options, const dam::Model& model,
     face->push(samples);
     const auto signal = face->pull();
     if (!signal) return signal.error();
-    if (auto ok = print_rows(*signal); !ok) return ok.error();
+    if (auto ok = print_rows(*signal, options.json); !ok) return ok.error();
   }
   if (count == 0) {
     return make_error(Code::truncated, "it ended before there was any sound").in_file(name);
   }
   const auto signal = face->finish();
   if (!signal) return signal.error();
-  if (auto ok = print_rows(*signal); !ok) return ok.error();
+  if (auto ok = print_rows(*signal, options.json); !ok) return ok.error();
   say_more(name + ": " + std::to_string(count) + " samples");
   return kOk;
 }
@@ -149,7 +159,7 @@ Result<int> run(const FollowOptions& options) {
   settings.synthesis.rate = *rate;
   if (options.look_ahead >= 0) settings.look_ahead = options.look_ahead;
   dam::SpeechStream stream(*model, settings);
-  print_header(*model);
+  if (!options.json) print_header(*model);
   std::string text;
   double known = 0;  // seconds
   for (std::int64_t line = 1;; ++line) {
@@ -168,54 +178,51 @@ Result<int> run(const FollowOptions& options) {
     if (auto ok = stream.push(**phone); !ok) return in_line(line, ok.error().message);
     Result<dam::Signal> signal = stream.pull();
     if (!signal) return signal.error();
-    if (auto ok = print_rows(*signal); !ok) return ok.error();
+    if (auto ok = print_rows(*signal, options.json); !ok) return ok.error();
   }
   Result<dam::Signal> signal = stream.finish();
   if (!signal) return signal.error();
-  if (auto ok = print_rows(*signal); !ok) return ok.error();
+  if (auto ok = print_rows(*signal, options.json); !ok) return ok.error();
   return kOk;
 }
 
-void add_options(CLI::App& app, FollowOptions& options) {
-  app.add_option("--model", options.model, "Model file of a character; default: the built-in one");
-  app.add_option("--rate", options.rate, "Frames a second: 25, 29.97, 60 ...")
-      ->type_name("RATE")
-      ->check(frame_rate())
-      ->capture_default_str();
-  add_motion_options(app, options.motion);
-  app.add_option("--max-seconds", options.length.seconds, "Longest phone, or gap before one")
-      ->option_text("SECONDS=3600")
-      ->check(between(1.0, dam::kMaxScriptSeconds));
-  app.add_option("--look-ahead", options.look_ahead,
-                 "Seconds of phones to wait for before a frame is given out; default: as many as "
-                 "make it final (about half a second)")
-      ->check(between(0.0, 60.0));
-  app.add_option(
-         "--audio", options.audio,
-         "Listen to a voice in place of phones: WAV from - (standard input), a pipe, a file")
-      ->option_text("FILE")
-      ->excludes("--look-ahead")
-      ->excludes("--max-seconds");
-  app.add_option("--pcm", options.pcm,
-                 "The sound is bare samples of 16 bit, little endian, of this rate, as 16000 or "
-                 "48000:2 (two channels)")
-      ->option_text("RATE[:CHANNELS]")
-      ->check(read_by(speech::parse_bare_sound))
+void add_options(OptionTable& cli, FollowOptions& options) {
+  cli.add("--model", options.model, "Model file of a character; default: the built-in model");
+  cli.add("--rate", options.rate, "Frames per second: 25, 29.97, 60 ...")
+      ->frame_rate()
+      ->show_default();
+  add_motion_options(cli, options.motion);
+  cli.add("--max-seconds", options.length.seconds, "Longest phone, or gap before one")
+      ->value("SECONDS=3600")
+      ->between(1.0, dam::kMaxScriptSeconds);
+  cli.add("--look-ahead", options.look_ahead,
+          "Seconds of phones to wait for before a frame is printed; default: until it is "
+          "final (about half a second)")
+      ->between(0.0, 60.0);
+  cli.add("--audio", options.audio,
+          "Follow a voice instead of phones: WAV from - (standard input), a pipe, a file")
+      ->value("FILE")
+      ->excludes("--look-ahead --max-seconds");
+  cli.add("--pcm", options.pcm,
+          "The sound is raw 16-bit little-endian PCM of this rate: 16000, or 48000:2 (two "
+          "channels)")
+      ->value("RATE[:CHANNELS]")
+      ->check(problem_of<speech::parse_bare_sound>)
       ->needs("--audio");
-  app.add_option("--delay", options.delay,
-                 "Seconds of sound to wait for before a frame is given out")
-      ->option_text("0.08..2=0.25")
-      ->check(between(0.08, 2.0))
+  cli.add("--delay", options.delay, "Seconds of sound to wait for before a frame is printed")
+      ->value("0.08..2=0.25")
+      ->between(0.08, 2.0)
       ->needs("--audio");
-  app.add_option("--lang", options.language, "Of the voice: en, or any other")
-      ->option_text("LANG=en")
+  cli.add("--lang", options.language, "Language of the voice: en, or any other")
+      ->value("LANG=en")
       ->needs("--audio");
+  cli.add("--json", options.json, "Print a JSON object per frame instead of a table");
 }
 
 }  // namespace
 
 const Command kFollow{
-    "follow", "Speak while phones or a voice are still coming: curves out, line by line",
+    "follow", "Animate a face while phones or sound arrive: prints curves line by line",
     "  animeme follow --audio voice.wav > curves.csv\n"
     "  my_tts --phones | animeme follow --model me.dam | my_player\n"
     "  printf '0 0.3 SIL\\n0.3 0.42 HH\\n0.42 0.6 AY\\n' | animeme follow --look-ahead 0.1\n"

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -11,6 +10,7 @@
 #include "fap/xml/xmt.h"
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/head_options.h"
+#include "tools/app/commands/outputs.h"
 #include "tools/app/commands/speak_test.h"
 #include "tools/formats/common/json.h"
 #include "tools/view/gltf/glb.h"
@@ -230,43 +230,38 @@ Result<int> run(const HeadOptions& given) {
   return kOk;
 }
 
-void add_options(CLI::App& app, HeadOptions& options) {
-  app.add_option("head", options.head.head, kHeadHelp)->capture_default_str();
-  app.add_option("--points", options.head.points, kPointsHelp);
-  CLI::Option* gain = add_gain_option(app, options.head);
-  gain->description(gain->get_description() + "; default: auto for --speak-test, else 1");
-  app.add_flag(
-      "--speak-test", options.speak_test,
-      "Speak P B M AA IY UW on it and measure: lips closed within 0.1 mm, UW 15 % narrower "
-      "than IY, AA open by 70 % of a full jawOpen; with -o a sheet of its visemes");
-  auto* const output = app.add_option(
-      "-o,--output", options.output,
-      "Write the head: .fdp (Xface; with its mesh, .wrl, and textures, .tga), .xmt "
-      "(MPEG-4 scene with an FDP), "
-      ".glb (with morph targets), .obj (with a list of feature points); of --speak-test: "
-      ".png, .jpg, .webp");
-  add_output(output, {".png", ".jpg", ".jpeg", ".webp", ".xmta", ".fdp", ".xmt", ".glb", ".obj"},
-             OutputKind::file);
-  app.add_flag("--json", options.json, "The same for scripts");
+void add_options(OptionTable& cli, HeadOptions& options) {
+  cli.add("head", options.head.head, kHeadHelp)->show_default();
+  cli.add("--points", options.head.points, kPointsHelp);
+  add_gain_option(cli, options.head)->help += "; default: auto for --speak-test, else 1";
+  cli.add("--speak-test", options.speak_test,
+          "Speak P B M AA IY UW with the head and measure: lips closed within 0.1 mm, UW 15 "
+          "% narrower than IY, AA open by 70 % of a full jawOpen; with -o a sheet of its "
+          "visemes");
+  cli.add("-o,--output", options.output,
+          "Head to write: .fdp (Xface; with its mesh, .wrl, and textures, .tga), .xmt "
+          "(MPEG-4 scene with an FDP), .glb (with morph targets), .obj (with a list of "
+          "feature points); with --speak-test: .png, .jpg, .webp")
+      ->output(".png .jpg .jpeg .webp .xmta .fdp .xmt .glb .obj", OutputKind::file);
+  cli.add("--json", options.json, "Print the same as JSON");
 }
 
 }  // namespace
 
 const Command kHead{
     "head",
-    "What a head has, ours or yours, and which FAPs move it; write it for Xface, "
-    "Blender, MPEG-4",
+    "Print what a head contains and which FAPs move it; convert it for Xface, Blender "
+    "and MPEG-4",
     "  animeme head me.glb\n"
     "  animeme head me.glb --speak-test -o visemes.png   # can it close P B M, round UW, open AA?\n"
     "  animeme head me.obj --points landmarks.csv\n"
     "  animeme head woman -o woman.fdp     # for XfacePlayer\n"
     "  animeme head child -o child.obj     # to edit; child.points.csv is beside it\n"
     "\n"
-    "A list of landmarks is a text: 2.1,966 in a line makes vertex 966 (from 0) the\n"
-    "chin. The mouth needs 2.2-2.9 and 8.1-8.8, lids 3.1-3.4, brows 4.1-4.6, the\n"
-    "chin 2.1 and 2.10, the nose 9.1-9.3 and 9.15, cheeks 5.1-5.4; further points\n"
-    "make it better. Show the head with --head me.obj --points landmarks.csv in\n"
-    "render, view and export.",
+    "A table of landmarks is a text file: the line 2.1,966 makes vertex 966 (from 0) the chin. "
+    "The mouth needs 2.2-2.9 and 8.1-8.8, lids 3.1-3.4, brows 4.1-4.6, the chin 2.1 and 2.10, the "
+    "nose 9.1-9.3 and 9.15, cheeks 5.1-5.4; further points improve it. Show the head with --head "
+    "me.obj --points landmarks.csv in render, view and export.",
     set_up<HeadOptions>};
 
 }  // namespace animeme::tools

@@ -1,23 +1,21 @@
 #include "tools/app/commands/head_options.h"
-#include "tools/app/commands/bounds.h"
+#include "tools/app/commands/options.h"
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 
 namespace animeme::tools {
 
 const char* const kHeadHelp =
-    "woman, man or child, or a head of your own: .glb, .gltf or .vrm with shapes (ARKit's or "
-    "visemes), .obj with --points, .fdp of Xface, .xmt with an FDP";
+    "woman, man or child, or your own head: .glb, .gltf or .vrm with ARKit blend shapes or "
+    "visemes, .obj with --points, .fdp (Xface), .xmt with an FDP";
 const char* const kPointsHelp =
-    "Which vertex of your .obj or .glb is which feature point: lines such as 2.1,966 (animeme head "
-    "--help)";
+    "Table of feature points of your .obj or .glb: lines such as 2.1,966 (see animeme head --help)";
 
 namespace {
 
 const char* const kGainHelp =
-    "How much wider lips open than the clip says, 0.25..4; auto: so that a spoken AA opens 70 % of "
-    "what the head's jaw can";
+    "Gain of the lip opening, 0.25..4; auto: a spoken AA opens the lips by 70 % of what the jaw of "
+    "the head can";
 
 std::string problem_of_gain(const std::string& text) {
   const bool known = text == "auto" || studio::gain_of(text);
@@ -26,50 +24,30 @@ std::string problem_of_gain(const std::string& text) {
 
 }  // namespace
 
-CLI::Option* add_gain_option(CLI::App& app, studio::HeadChoice& choice) {
-  return app.add_option("--gain", choice.gain, kGainHelp)
-      ->type_name("0.25..4|auto")
-      ->check(written_so(problem_of_gain));
+Option* add_gain_option(OptionTable& cli, studio::HeadChoice& choice) {
+  return cli.add("--gain", choice.gain, kGainHelp)->type("0.25..4|auto")->check(problem_of_gain);
 }
 
 namespace {
 
-void add_shared_options(CLI::App& app, studio::HeadChoice& choice) {
-  app.add_option("--points", choice.points, kPointsHelp);
-  add_gain_option(app, choice)->capture_default_str();
-}
-
-void add_heads(const std::string& value, std::vector<std::string>& heads) {
-  std::error_code none;
-  if (std::filesystem::exists(value, none)) {
-    heads.push_back(value);
-    return;
-  }
-  std::size_t from = 0;
-  for (std::size_t comma; (comma = value.find(',', from)) != std::string::npos; from = comma + 1) {
-    heads.push_back(value.substr(from, comma - from));
-  }
-  heads.push_back(value.substr(from));
+void add_shared_options(OptionTable& cli, studio::HeadChoice& choice) {
+  cli.add("--points", choice.points, kPointsHelp);
+  add_gain_option(cli, choice)->show_default();
 }
 
 }  // namespace
 
-void add_head_options(CLI::App& app, studio::HeadChoice& choice) {
-  app.add_option("--head", choice.head, kHeadHelp)->capture_default_str();
-  add_shared_options(app, choice);
+void add_head_options(OptionTable& cli, studio::HeadChoice& choice) {
+  cli.add("--head", choice.head, kHeadHelp)->show_default();
+  add_shared_options(cli, choice);
 }
 
-void add_heads_options(CLI::App& app, std::vector<std::string>& heads, studio::HeadChoice& choice) {
-  const auto take = [&heads](const std::vector<std::string>& values) {
-    for (const std::string& value : values) add_heads(value, heads);
-  };
-  app.add_option_function<std::vector<std::string>>(
-         "--head", take,
-         std::string(kHeadHelp) +
-             ". Several (woman,man,me.glb, or the option again): the page lets people choose; one "
-             "of ours is 0.6 to 0.8 MB of the page. Default: woman")
-      ->allow_extra_args(false);
-  add_shared_options(app, choice);
+void add_heads_options(OptionTable& cli, std::vector<std::string>& heads,
+                       studio::HeadChoice& choice) {
+  cli.add("--head", heads, kHeadHelp)->one_at_a_time()->help +=
+      ". Several (woman,man,me.glb, or repeat the option): the page offers a choice; a built-in "
+      "head takes 0.6 to 0.8 MB. Default: woman";
+  add_shared_options(cli, choice);
 }
 
 }  // namespace animeme::tools

@@ -1,5 +1,4 @@
 // Motion captured by other programs: shapes of a phone, points of a tracker, videos by way of one.
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <set>
 
@@ -9,6 +8,8 @@
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/face_text.h"
 #include "tools/app/commands/interrupt.h"
+#include "tools/app/commands/outputs.h"
+#include "tools/app/commands/report.h"
 #include "tools/formats/common/text.h"
 #include "tools/formats/exchange/curves.h"
 #include "tools/formats/exchange/face_file.h"
@@ -92,7 +93,8 @@ Result<Places> find_places(const ImportOptions& options) {
   std::error_code error;
   std::filesystem::create_directories(places.folder, error);
   if (error) {
-    return make_error(Code::io, "cannot make the folder " + places.folder + ": " + error.message());
+    return make_error(Code::io,
+                      "cannot create the folder " + places.folder + ": " + error.message());
   }
   std::set<std::string> names;
   for (const std::string& input : options.inputs) {
@@ -113,9 +115,12 @@ Result<void> write_curves(const std::string& path, const CapturedFace& face) {
   if (!signal) return signal.error();
   mark_made(*signal, face.made);
   if (auto written = write_file(path, exchange::write_curves(*signal)); !written) return written;
-  say(name_of_output(path) + ": " + std::to_string(signal->frames()) + " frames, " +
-      std::to_string(signal->names.size()) + " curves, " + fap::format_rate(signal->rate) +
-      " frames a second");
+  const std::string rate = fap::format_rate(signal->rate);
+  report_output(path,
+                std::to_string(signal->frames()) + " frames, " +
+                    std::to_string(signal->names.size()) + " curves, " + rate +
+                    " frames per second",
+                {{"frames", signal->frames()}, {"curves", signal->names.size()}, {"rate", rate}});
   return {};
 }
 
@@ -129,12 +134,15 @@ Result<void> write_clip(const std::string& path, const CapturedFace& captured, b
   if (!frames) return frames.error();
   if (auto written = file.publish(); !written) return written.error();
   const std::int64_t skipped = clip.frames.back().number + 1 - std::int64_t(clip.frames.size());
-  say(name_of_output(path) + ": " + std::to_string(*frames) + " frames, " +
-      std::to_string(clip.frames.front().mask.count()) + " FAPs, " + fap::format_rate(clip.rate) +
-      " frames a second" +
-      (skipped == 0
-           ? ""
-           : ", " + std::to_string(skipped) + (exact ? " frames skipped" : " of them held")));
+  const std::size_t faps = clip.frames.front().mask.count();
+  const std::string rate = fap::format_rate(clip.rate);
+  report_output(path,
+                std::to_string(*frames) + " frames, " + std::to_string(faps) + " FAPs, " + rate +
+                    " frames per second" +
+                    (skipped == 0 ? ""
+                                  : ", " + std::to_string(skipped) +
+                                        (exact ? " frames skipped" : " of them held")),
+                {{"frames", *frames}, {"faps", faps}, {"rate", rate}, {"skipped", skipped}});
   return {};
 }
 
@@ -204,37 +212,35 @@ Result<int> run(const ImportOptions& options) {
     if (auto done = write_file(options.save_face, exchange::write_face_file(*saved)); !done) {
       return done.error();
     }
-    say(options.save_face + ": the neutral face");
+    report_output(options.save_face, "the neutral face");
   }
   return kOk;
 }
 
-void add_options(CLI::App& app, ImportOptions& options) {
-  app.add_option("input", options.inputs,
-                 "Table (CSV) of ARKit blend shapes: of Live Link Face, or time_s and one column a "
-                 "shape; or of landmarks: of OpenFace, 68 points (x_0, y_0 or landmark_0_x ...), "
-                 "468 or 478 points of MediaPipe, a part of them, or feature points (8.1_x, 8.1_y "
-                 "...); with a row a frame or a row a point; JSON of MediaPipe; or a video, with "
-                 "--tracker. Several have one neutral face; - for standard input")
+void add_options(OptionTable& cli, ImportOptions& options) {
+  cli.add("input", options.inputs,
+          "Table (CSV) of ARKit blend shapes: from Live Link Face, or time_s and a column "
+          "per shape; or of landmarks: from OpenFace, 68 points (x_0, y_0 or landmark_0_x "
+          "...), 468 or 478 points of MediaPipe, a part of them, or feature points (8.1_x, "
+          "8.1_y ...), with a row per frame or per point; JSON of MediaPipe; or a video, "
+          "with --tracker. Several inputs share a neutral face; - for standard input")
       ->required();
-  add_output(app.add_option("-o,--output", options.output,
-                            "FAP text (.fap) or a table of curves (.csv) to write, - for standard "
-                            "output; a folder for several inputs; the folder of a corpus gets "
-                            "fap/NAME.csv"),
-             {".fap", ".txt", ".csv"}, OutputKind::file_or_folder)
+  cli.add("-o,--output", options.output,
+          "FAP text (.fap) or table of curves (.csv) to write, - for standard output; a "
+          "folder for several inputs; in the folder of a corpus fap/NAME.csv")
+      ->output(".fap .txt .csv", OutputKind::file_or_folder)
       ->required();
-  add_capture_options(app, options.capture);
-  add_neutral_options(app, options.neutral);
-  add_output(app.add_option("--save-face", options.save_face,
-                            "Write the neutral face to this file, for --face-file"),
-             {".face", ".json"})
-      ->group(kLandmarkGroup);
-  add_exact_option(app, options.exact);
+  add_capture_options(cli, options.capture);
+  add_neutral_options(cli, options.neutral);
+  cli.add("--save-face", options.save_face, "Write the neutral face to this file, for --face-file")
+      ->output(".face .json")
+      ->in_group(kLandmarkGroup);
+  add_exact_option(cli, options.exact);
 }
 
 }  // namespace
 
-const Command kImport{"import", "Turn a captured face (ARKit curves, landmarks) into FAPs",
+const Command kImport{"import", "Convert a captured face (ARKit curves, landmarks) to FAPs",
                       "  animeme import take.csv -o take.fap\n"
                       "  animeme import take.csv --rate 29.97 -o take.fap\n"
                       "  animeme import take.csv -o - | animeme encode - -o take.fba\n"

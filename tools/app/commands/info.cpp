@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <optional>
 
@@ -161,19 +160,19 @@ Result<int> run(const InfoOptions& options) {
   return kOk;
 }
 
-void add_options(CLI::App& app, InfoOptions& options) {
-  app.add_option("file", options.input,
-                 "FAP or BAP text, FBA stream, container, sound, model or phoneme script")
+void add_options(OptionTable& cli, InfoOptions& options) {
+  cli.add("file", options.input,
+          "FAP or BAP text, FBA stream, container, sound, model or phoneme script")
       ->required();
-  app.add_flag("--json", options.json, "Machine-readable result");
-  app.add_flag(
-      "--planes", options.planes,
-      "One line a plane: bit position, size, headers, masks, ranges (all of them with --json)");
+  cli.add("--json", options.json, "Print a machine-readable result");
+  cli.add("--planes", options.planes,
+          "Print a line per plane: bit position, size, headers, masks, ranges (all of them "
+          "with --json)");
 }
 
 }  // namespace
 
-const Command kInfo{"info", "What a file holds",
+const Command kInfo{"info", "Print what a file contains",
                     "  animeme info talk.mp4\n"
                     "  animeme info talk.fba --planes --json",
                     set_up<InfoOptions>};

@@ -1,27 +1,23 @@
 #include "tools/app/commands/line.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 #include <iterator>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/did_you_mean.h"
+#include "tools/app/commands/help.h"
 #include "tools/app/commands/licences.h"
 #include "tools/app/commands/outputs.h"
+#include "tools/app/commands/parse_line.h"
+#include "tools/app/commands/report.h"
 
 namespace animeme::tools {
 
 namespace {
-
-// Errors of the user's input and errors of ours have different exit codes.
-int report_error(const Error& error) {
-  // In one piece, as other processes may write to the same place.
-  std::cerr << "animeme: error: " + error.describe() + "\n";
-  return error.code == Code::internal ? kInternal : kBadInput;
-}
 
 constexpr const Command* kCommands[] = {
     &kSpeak,    &kBatch,  &kFollow, &kAlign,  &kCorpus,  &kTrain,   &kEvaluate,
@@ -33,81 +29,126 @@ constexpr const Command* kCommands[] = {
 struct CommonFlags {
   bool quiet = false;
   bool verbose = false;
+  bool report = false;
 };
 
-void set_up_common(CLI::App& app, CommonFlags& flags) {
-  app.description(
-      "Animeme: speech to MPEG-4 facial animation.\n"
-      "Makes faces talk (FAPs), codes them (FBA, a few kbit/s) and muxes them with the voice.");
-  app.name("animeme");
-  app.require_subcommand(1);
-  // --json is an option of commands; here it is one word that is left over.
-  const auto version = [&app] {
-    const std::vector<std::string> left = app.remaining();
-    return version_text(app.count("--verbose") > 0,
-                        std::count(left.begin(), left.end(), "--json") > 0);
-  };
-  app.set_version_flag("--version", version,
-                       "The version; with --verbose (and --json) libraries and licences, too");
-  app.footer(
-      "'animeme COMMAND --help' explains a command.\n"
-      "Exit codes: 0 ok, 1 a check failed or a recording ended early, 2 usage, 3 bad input, 4\n"
-      "internal error, 130 stopped by Ctrl-C (what was written so far is complete).");
-  app.add_flag("-q,--quiet", flags.quiet, "No talk on standard error but errors");
-  app.add_flag("-v,--verbose", flags.verbose,
-               "More talk: which sounds a model lacks, and what is said");
-  app.fallthrough();
+OptionTable common_table(CommonFlags& flags) {
+  OptionTable table(
+      "animeme",
+      "Animeme: MPEG-4 facial animation from text and speech.\n"
+      "Animates faces (FAPs), encodes the motion (FBA, a few kbit/s) and muxes it with sound.",
+      "'animeme help COMMAND' explains a command.\n"
+      "Exit codes: 0 ok, 1 a check failed or a recording ended early, 2 usage, 3 bad input, "
+      "4 internal error, 130 stopped by Ctrl-C (what was written so far is complete).");
+  table.add("-V,--version", {}, "Print the version; with --verbose also libraries and licences");
+  table.add("-q,--quiet", flags.quiet, "Print errors only");
+  table.add("-v,--verbose", flags.verbose,
+            "Print more details, such as phones that the model lacks");
+  return table;
 }
 
-void add(CLI::App& app, const Command& command, Action& chosen) {
-  CLI::App* sub = app.add_subcommand(command.name, command.summary);
-  sub->footer(std::string("Examples:\n") + command.examples);
-  Action action = command.add(*sub);
-  sub->callback([&chosen, action] { chosen = action; });
+// `report`: set by --json of a command that has no report of its own.
+OptionTable table_of(const Command& command, Action& action, bool& report) {
+  OptionTable table(command.name, command.summary, std::string("Examples:\n") + command.examples);
+  action = command.add(table);
+  if (table.find("--json") == nullptr) {
+    table.add("--json", report, "Print what was written, or what went wrong, as JSON");
+  }
+  return table;
+}
+
+const Command* find_command(const std::string& name) {
+  const auto* const found = std::find_if(std::begin(kCommands), std::end(kCommands),
+                                         [&](const Command* one) { return name == one->name; });
+  return found == std::end(kCommands) ? nullptr : *found;
+}
+
+bool has_word(const std::vector<const char*>& words, std::string_view wanted) {
+  return std::find(words.begin(), words.end(), wanted) != words.end();
+}
+
+// The words behind the program's name, with `help` and `version` as the options that they mean.
+std::vector<const char*> plain_words(std::span<const char* const> arguments) {
+  std::vector<const char*> words(arguments.begin(), arguments.end());
+  const std::string_view first = words.empty() ? "" : words.front();
+  if (first == "version") words.front() = "--version";
+  if (first == "help") {
+    words.erase(words.begin());
+    words.push_back("--help");
+  }
+  return words;
 }
 
 }  // namespace
 
-void set_up_program(CLI::App& app) {
+OptionTable program_table() {
   static CommonFlags flags;  // nothing is parsed
-  static Action chosen;
-  set_up_common(app, flags);
-  for (const Command* command : kCommands) add(app, *command, chosen);
+  static std::vector<Action> actions(std::size(kCommands));
+  OptionTable program = common_table(flags);
+  for (std::size_t i = 0; i < actions.size(); ++i) {
+    program.commands.push_back(table_of(*kCommands[i], actions[i], flags.report));
+  }
+  return program;
 }
 
 int run_line(std::span<const char* const> arguments) {
-  CLI::App app;
-  CommonFlags flags;
-  set_up_common(app, flags);
-  Action chosen;
-  // A line that begins with its command wants no other: batches run many.
-  const std::string first = arguments.size() > 1 ? arguments[1] : "";
-  const bool known = std::any_of(std::begin(kCommands), std::end(kCommands),
-                                 [&](const Command* one) { return first == one->name; });
-  forget_outputs();
-  for (const Command* command : kCommands) {
-    if (!known || first == command->name) add(app, *command, chosen);
+  const std::vector<const char*> words = plain_words(arguments.subspan(1));
+  const auto name =
+      std::find_if(words.begin(), words.end(), [](const char* word) { return word[0] != '-'; });
+  const Command* const command = name == words.end() ? nullptr : find_command(*name);
+  set_reporting(command == nullptr ? "" : command->name, has_word(words, "--json"));
+  if (command == nullptr && name != words.end()) {
+    return usage_error(did_you_mean(program_table(), words));
   }
-  try {
-    app.parse(int(arguments.size()), arguments.data());
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() != 0) {
-      const std::string guess = did_you_mean(app, arguments.subspan(1));
-      return usage_error(guess.empty() ? error.what() : guess);
+  CommonFlags flags;
+  OptionTable program = common_table(flags);
+  Action action;
+  if (command != nullptr) program.commands.push_back(table_of(*command, action, flags.report));
+  OptionTable* const table = command == nullptr ? nullptr : &program.commands.front();
+  const ParsedLine line = parse_line(program, table, words);
+  switch (line.action) {
+    case ParsedLine::Action::help:
+    case ParsedLine::Action::help_all: {
+      const bool all = line.action == ParsedLine::Action::help_all;
+      const OptionTable whole = program_table();
+      std::cout << help_text(table == nullptr ? whole : *table, whole, all, terminal_width());
+      return kOk;
     }
-    app.exit(error);  // help
-    return kOk;
+    case ParsedLine::Action::version:
+      std::cout << version_text(has_word(words, "--verbose") || has_word(words, "-v"),
+                                has_word(words, "--json"))
+                << "\n";
+      return kOk;
+    case ParsedLine::Action::fail: {
+      const std::string guess = did_you_mean(program_table(), words);
+      return usage_error(guess.empty() ? line.problem : guess);
+    }
+    case ParsedLine::Action::run:
+      break;
+  }
+  if (table == nullptr) {
+    const OptionTable whole = program_table();
+    std::cerr << help_text(whole, whole, false, terminal_width());
+    return kUsage;
   }
   set_quiet(flags.quiet);
   set_verbose(flags.verbose);
-  for (const CLI::App* command : app.get_subcommands()) {
-    if (const std::string text = problem_with_outputs(*command); !text.empty()) {
-      return usage_error(text);
-    }
-    if (auto can = outputs_can_be_written(*command); !can) return report_error(can.error());
+  if (const std::string text = problem_with_outputs(*table); !text.empty()) {
+    return usage_error(text);
   }
-  const Result<int> result = chosen();
-  return result ? *result : report_error(result.error());
+  if (auto can = outputs_can_be_written(*table); !can) return report_error(can.error());
+  if (flags.report) {
+    for (const std::unique_ptr<Option>& option : table->options) {
+      const bool to_output = option->output_kind != OutputKind::none && option->given();
+      if (to_output && option->values.front() == "-") {
+        return usage_error(problem_with_report());
+      }
+    }
+  }
+  const Result<int> result = action.run(action.options.get());
+  if (!result) return report_error(result.error());
+  if (flags.report && *result != kUsage) std::cout << report_text() << "\n";
+  return *result;
 }
 
 }  // namespace animeme::tools

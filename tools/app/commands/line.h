@@ -4,14 +4,12 @@
 
 #include <span>
 
-namespace CLI {
-class App;
-}
+#include "tools/app/commands/options.h"
 
 namespace animeme::tools {
 
-/// The program with all its commands, for those who read their options.
-void set_up_program(CLI::App& app);
+/// The options of the program and of all its commands.
+OptionTable program_table();
 
 /// Parses a command line and runs its command; errors were printed. `arguments`: the program first.
 /// May be called again and again. Returns the exit code.

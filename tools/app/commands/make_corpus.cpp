@@ -1,9 +1,7 @@
 // From videos and transcripts to a corpus that `animeme train` reads.
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
 
-#include "tools/app/commands/bounds.h"
 #include "tools/app/commands/capture_options.h"
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/interrupt.h"
@@ -28,7 +26,7 @@ Result<int> run(const MakeCorpusOptions& options) {
   if (!settings) return usage_error(settings.error().describe());
   plan.capture = *settings;
   if (!plan.capture.landmarks.neutral.empty() && plan.neutral.from.empty()) {
-    return usage_error("--neutral is a part of one recording; --neutral-from says of which");
+    return usage_error("--neutral is a part of one recording; name it with --neutral-from");
   }
   const Interrupt interrupt;
   ProgressLine line("corpus");
@@ -62,45 +60,44 @@ Result<int> run(const MakeCorpusOptions& options) {
   return report->left_out.empty() ? kOk : kCheckFailed;
 }
 
-void add_options(CLI::App& app, MakeCorpusOptions& options) {
+void add_options(OptionTable& cli, MakeCorpusOptions& options) {
   CorpusPlan& plan = options.plan;
-  app.add_option("videos", plan.places.captures,
-                 "Folder of videos of one person, or of tables that a tracker wrote (.csv, .tsv, "
-                 ".json), or one of them. A table counts before a video of the same name")
+  cli.add("videos", plan.places.captures,
+          "Folder of videos of one person, or of tables that a tracker wrote (.csv, .tsv, "
+          ".json), or one such file. Tables take precedence over videos of the same name")
       ->required();
-  app.add_option(
-         "transcripts", plan.places.transcripts,
-         "What is said: a folder of NAME.txt or .lab, or of scripts that are timed already "
-         "(NAME.TextGrid and others), or a table of names and texts (tabs, | or commas); of "
-         "one video its .txt, .srt, .vtt or .TextGrid")
+  cli.add("transcripts", plan.places.transcripts,
+          "Texts: a folder of NAME.txt or .lab, or of timed scripts (NAME.TextGrid and "
+          "others), or a table of names and texts (tabs, | or commas); for a single video "
+          "its .txt, .srt, .vtt or .TextGrid")
       ->required();
-  add_output(app.add_option("-o,--output", plan.output,
-                            "Folder of the corpus; an earlier one is gone on with"),
-             {}, OutputKind::folder)
+  cli.add("-o,--output", plan.output, "Folder of the corpus; an existing corpus is continued")
+      ->output("", OutputKind::folder)
       ->required();
-  app.add_option("--audio", plan.places.audio,
-                 "Folder of the sounds; without it those beside the captures, or in the videos");
-  app.add_option("--lang", plan.language, "Language of the transcripts")->capture_default_str();
-  add_script_options(app, plan.script_reading);
-  app.add_option("--folds", plan.folds, "Parts to test on; part 1 is `test` in the column split")
-      ->check(between(2, 100))
-      ->capture_default_str();
-  app.add_option("--cut", plan.longest,
-                 "Recordings of more seconds than this become sentences, cut at their pauses; 0: "
-                 "no cutting")
-      ->check(between(0.0, 600.0))
-      ->capture_default_str();
-  app.add_flag("--strict", plan.strict, "Leave doubtful sentences out");
-  app.add_flag("--track-again", plan.track_again, "Track videos that were tracked before, too");
-  add_capture_options(app, options.capture);
-  add_neutral_options(app, plan.neutral);
-  app.add_flag("--json", options.json, "Machine-readable report on standard output");
+  cli.add("--audio", plan.places.audio,
+          "Folder of the sounds; default: those beside the captures, or in the videos");
+  cli.add("--lang", plan.language, "Language of the transcripts")->show_default();
+  add_script_options(cli, plan.script_reading);
+  cli.add("--folds", plan.folds,
+          "Number of folds for cross-validation; fold 1 is `test` in the column split")
+      ->between(2, 100)
+      ->show_default();
+  cli.add("--cut", plan.longest,
+          "Split recordings that are longer than so many seconds into sentences, at their "
+          "pauses; 0: never")
+      ->between(0.0, 600.0)
+      ->show_default();
+  cli.add("--strict", plan.strict, "Leave out doubtful sentences");
+  cli.add("--track-again", plan.track_again, "Track all videos again");
+  add_capture_options(cli, options.capture);
+  add_neutral_options(cli, plan.neutral);
+  cli.add("--json", options.json, "Print a machine-readable report");
 }
 
 }  // namespace
 
 const Command kCorpus{
-    "corpus", "Make a corpus to train on from videos and what is said in them",
+    "corpus", "Make a training corpus from videos and their transcripts",
     "  animeme corpus videos/ texts/ -o me --tracker \"track {in} {out}\"\n"
     "  animeme corpus videos/ lines.tsv -o me        (ANIMEME_TRACKER names the tracker)\n"
     "  animeme corpus ten_minutes.mp4 ten_minutes.txt -o me --tracker \"track {in} {out}\"\n"

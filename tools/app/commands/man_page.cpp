@@ -2,7 +2,7 @@
 #include <cctype>
 #include <sstream>
 
-#include "tools/app/commands/help_table.h"
+#include "tools/app/commands/help.h"
 
 namespace animeme::tools {
 namespace {
@@ -46,16 +46,18 @@ std::string upper(std::string text) {
   return text;
 }
 
-void write_options(std::ostream& out, const char* title, const std::vector<HelpOption>& options) {
+void write_options(std::ostream& out, const char* title, const std::vector<const Option*>& options,
+                   bool arguments) {
   if (options.empty()) return;
   out << ".SH " << title << "\n";
-  for (const HelpOption& option : options) {
+  for (const Option* option : options) {
+    const std::vector<std::string> names =
+        arguments ? std::vector<std::string>{option->argument} : option->shown_names();
+    const std::string value = option->value_text();
     out << ".TP\n";
-    for (std::size_t i = 0; i < option.names.size(); ++i) {
-      out << (i == 0 ? "" : ", ") << bold(option.names[i]);
-    }
-    if (!option.value.empty()) out << " " << roff(option.value);
-    out << "\n" << roff(option.text.empty() ? option.value : option.text) << "\n";
+    for (std::size_t i = 0; i < names.size(); ++i) out << (i == 0 ? "" : ", ") << bold(names[i]);
+    if (!value.empty()) out << " " << roff(value);
+    out << "\n" << roff(option->help) << "\n";
   }
 }
 
@@ -71,18 +73,19 @@ void write_footer(std::ostream& out, const std::string& footer) {
   out << ".SH " << title << "\n.nf\n" << roff(text) << "\n.fi\n";
 }
 
-void write_synopsis(std::ostream& out, const HelpTable& table, const std::string& words) {
+void write_synopsis(std::ostream& out, const OptionTable& table, const std::string& words) {
   out << ".SH SYNOPSIS\n" << bold(words) << " [\\fIOPTIONS\\fR]";
-  for (const HelpOption& argument : table.arguments) {
-    const std::string name = roff(argument.names.front());
-    out << (argument.required ? " \\fI" + name + "\\fR" : " [\\fI" + name + "\\fR]");
+  for (const Option* argument : table.arguments()) {
+    const std::string name = roff(argument->argument);
+    out << (argument->is_required ? " \\fI" + name + "\\fR" : " [\\fI" + name + "\\fR]");
   }
   out << (table.commands.empty() ? "\n" : " \\fICOMMAND\\fR ...\n");
 }
 
 }  // namespace
 
-std::string man_page(const HelpTable& table, const HelpTable& program, const std::string& version) {
+std::string man_page(const OptionTable& table, const OptionTable& program,
+                     const std::string& version) {
   const bool whole = &table == &program;
   const std::string page = whole ? program.name : program.name + "-" + table.name;
   std::string summary = table.summary;
@@ -95,12 +98,12 @@ std::string man_page(const HelpTable& table, const HelpTable& program, const std
   write_synopsis(out, table, whole ? program.name : program.name + " " + table.name);
   if (!table.commands.empty()) {
     out << ".SH COMMANDS\n";
-    for (const HelpTable& command : table.commands) {
+    for (const OptionTable& command : table.commands) {
       out << ".TP\n" << bold(command.name) << "\n" << roff(command.summary) << "\n";
     }
   }
-  write_options(out, "ARGUMENTS", table.arguments);
-  write_options(out, "OPTIONS", table.options);
+  write_options(out, "ARGUMENTS", table.arguments(), true);
+  write_options(out, "OPTIONS", table.named(), false);
   write_footer(out, table.footer);
   out << ".SH SEE ALSO\n";
   if (whole) {

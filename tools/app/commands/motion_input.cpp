@@ -1,5 +1,4 @@
 // Reading whatever holds motion: what the library exchange reads, and containers.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -7,7 +6,6 @@
 
 #include "codec/decode/access_unit.h"
 #include "codec/decode/fill.h"
-#include "tools/app/commands/bounds.h"
 #include "tools/app/commands/common.h"
 #include "tools/formats/media/container.h"
 
@@ -114,11 +112,10 @@ fap::FillOptions LengthLimit::filling(fap::FillOptions options, const fap::Rate&
   return options;
 }
 
-void add_length_option(CLI::App& app, LengthLimit& limit) {
-  app.add_option("--max-seconds", limit.seconds,
-                 "Longest script, and longest time missing from a face, in seconds")
-      ->option_text("SECONDS=3600")
-      ->check(between(1.0, dam::kMaxScriptSeconds));
+void add_length_option(OptionTable& cli, LengthLimit& limit) {
+  cli.add("--max-seconds", limit.seconds, "Longest script, and longest gap in a face, in seconds")
+      ->value("SECONDS=3600")
+      ->between(1.0, dam::kMaxScriptSeconds);
 }
 
 Result<void> require_face(const MotionInput& input, const std::string& path) {

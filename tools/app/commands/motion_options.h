@@ -2,14 +2,14 @@
 /// How a face that speaks moves: options of speak, stream and follow.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include "dam/speaking/synthesise.h"
 
 namespace animeme::tools {
 
+struct OptionTable;
+
 /// Adds --style, --sharpness and --articulate, with the program's defaults: as learned, but vowels
 /// clearer (SynthesisOptions::articulation is 1).
-void add_motion_options(CLI::App& app, dam::SynthesisOptions& options);
+void add_motion_options(OptionTable& cli, dam::SynthesisOptions& options);
 
 }  // namespace animeme::tools

@@ -1,7 +1,5 @@
 #include "tools/formats/media/mux.h"
-#include "tools/app/commands/bounds.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "tools/app/commands/common.h"
@@ -39,7 +37,7 @@ Result<fba::AccessUnits> for_segments(fba::AccessUnits units, const MuxOptions& 
   if (options.copy) {
     if (longest > options.mux.fragment_seconds + options.stream.intra_seconds) {
       warn(options.face + ": segments last up to " + seconds_text(longest) +
-           ", as far as its intra planes are apart; without --copy it is coded again");
+           ", the longest interval between its intra planes; without --copy it is encoded again");
     }
     return units;
   }
@@ -50,8 +48,8 @@ Result<fba::AccessUnits> for_segments(fba::AccessUnits units, const MuxOptions& 
   auto again = live::with_joints(units, *decoded, coding);
   if (!again) return again.error();
   if (!*again) return units;
-  say(options.face + ": coded again, so that a segment can begin every " +
-      seconds_text(coding.intra_seconds) + "; --copy keeps it as it is");
+  say(options.face + ": encoded again, so that a segment can start every " +
+      seconds_text(coding.intra_seconds) + "; --copy keeps it");
   return std::move(**again);
 }
 
@@ -113,48 +111,45 @@ Result<int> run(MuxOptions options) {
   return write_preview(options.preview, *units, input);
 }
 
-void add_options(CLI::App& app, MuxOptions& options) {
-  app.add_option("face", options.face, "FAP text, FBA stream, or a container with a face")
+void add_options(OptionTable& cli, MuxOptions& options) {
+  cli.add("face", options.face, "FAP text, FBA stream, or a container with a face")->required();
+  cli.add("audio", options.audio, "Sound in any format that FFmpeg reads")->required();
+  cli.add("-o,--output", options.output,
+          "File to write: .mp4, .mkv, .ts; .m3u8 (HLS) or .mpd (DASH) with a folder of "
+          "segments beside it")
+      ->output("")
       ->required();
-  app.add_option("audio", options.audio, "Sound in any format that FFmpeg reads")->required();
-  add_output(app.add_option("-o,--output", options.output,
-                            "File to write: .mp4, .mkv, .ts; .m3u8 (HLS) or .mpd (DASH) with a "
-                            "folder of segments beside it"),
-             {})
-      ->required();
-  add_stream_options(app, options.stream);
-  app.add_flag("--copy", options.copy,
-               "HLS and DASH: keep a stream as it is, however far the points where playing can "
-               "begin are apart; else it is coded again with --intra-seconds");
-  add_sound_options(app, options.sound, true);
-  CLI::Option* fragmented =
-      app.add_flag("--fragmented", options.mux.fragmented,
-                   "mp4: in fragments, so that a reader can begin before the file is complete");
-  app.add_option("--fragment-seconds", options.mux.fragment_seconds,
-                 "Length of fragments and of segments (.m3u8, .mpd), seconds")
-      ->check(between(0.02, 600.0))
-      ->capture_default_str();
-  app.add_option(
-         "--pes-seconds", options.mux.shared_seconds,
-         "ts: planes of so many seconds share a packet, and tables come half a second apart: a "
-         "fraction of the bytes, but few readers part the planes again; 0: a packet a plane")
-      ->check(between(0.0, 2.0))
-      ->capture_default_str();
-  app.add_flag("--systems", options.mux.systems,
-               "mp4: add the scene and object streams of a complete MPEG-4 Systems presentation")
-      ->excludes(fragmented);
-  app.add_flag(
+  add_stream_options(cli, options.stream);
+  cli.add("--copy", options.copy,
+          "HLS and DASH: keep the stream however long its intra intervals are; by default it "
+          "is encoded again with --intra-seconds");
+  add_sound_options(cli, options.sound, true);
+  cli.add("--fragmented", options.mux.fragmented,
+          "mp4: write fragments, so that reading can start before the file is complete");
+  cli.add("--fragment-seconds", options.mux.fragment_seconds,
+          "Length of fragments and of segments (.m3u8, .mpd), seconds")
+      ->between(0.02, 600.0)
+      ->show_default();
+  cli.add("--pes-seconds", options.mux.shared_seconds,
+          "ts: put the planes of so many seconds into a packet, and tables half a second "
+          "apart: much smaller, but few readers split the planes again; 0: a packet per plane")
+      ->between(0.0, 2.0)
+      ->show_default();
+  cli.add("--systems", options.mux.systems,
+          "mp4: add the scene and object streams of a complete MPEG-4 Systems presentation")
+      ->excludes("--fragmented");
+  cli.add(
       "--video-track", options.video_track,
-      "mp4, HLS, DASH: the face as a video track (handler vide, entry mp4v), where readers "
-      "of MPEG-4 look for it; programs that convert take it for a film that they cannot "
-      "decode. Without: as timed metadata, which they leave alone");
-  add_subtitles_option(app, options.subtitles);
-  add_preview_option(app, options.preview);
+      "mp4, HLS, DASH: write the face as a video track (handler vide, entry mp4v), where MPEG-4 "
+      "readers look for it; converters take it for a video that they cannot decode. Default: "
+      "timed metadata, which they leave alone");
+  add_subtitles_option(cli, options.subtitles);
+  add_preview_option(cli, options.preview);
 }
 
 }  // namespace
 
-const Command kMux{"mux", "Put a face and a voice into one file",
+const Command kMux{"mux", "Mux a face and sound into one file",
                    "  animeme mux talk.fba voice.wav -o talk.mp4\n"
                    "  animeme mux talk.fap voice.flac --quant 2 -o talk.mkv\n"
                    "  animeme mux talk.fba voice.wav --audio-codec opus --fragmented -o talk.mp4\n"

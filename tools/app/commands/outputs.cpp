@@ -1,8 +1,6 @@
 #include "tools/app/commands/outputs.h"
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
-#include <map>
 #include <system_error>
 #include <utility>
 
@@ -18,17 +16,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct OutputRule {
-  std::vector<std::string> endings;
-  OutputKind kind = OutputKind::stream;
-};
-
-// Of the line that is run: options that are gone may have the address of one that comes.
-std::map<const CLI::Option*, OutputRule>& rules() {
-  static std::map<const CLI::Option*, OutputRule> all;
-  return all;
-}
-
 struct Given {
   std::string option;  // as it is called in messages
   std::string path;
@@ -36,10 +23,6 @@ struct Given {
 std::vector<Given>& inputs() {
   static std::vector<Given> all;
   return all;
-}
-
-std::string called(const CLI::Option& option) {
-  return option.get_lnames().empty() ? option.get_name() : "--" + option.get_lnames().front();
 }
 
 std::string list(const std::vector<std::string>& endings) {
@@ -62,17 +45,18 @@ bool names_folder(const std::string& path) {
   return path.ends_with('/') || fs::is_directory(path, ignored);
 }
 
-std::string wrong_ending(const Given& output, const OutputRule& rule) {
-  if (rule.endings.empty() || (output.path == "-" && rule.kind != OutputKind::file)) return {};
+std::string wrong_ending(const Given& output, const Option& rule) {
+  if (rule.extensions.empty() || (output.path == "-" && rule.output_kind != OutputKind::file))
+    return {};
   const std::string ending = extension_of(output.path);
-  if (rule.kind == OutputKind::file_or_folder && names_folder(output.path)) return {};
-  if (rule.kind != OutputKind::file && rule.kind != OutputKind::file_or_dash &&
+  if (rule.output_kind == OutputKind::file_or_folder && names_folder(output.path)) return {};
+  if (rule.output_kind != OutputKind::file && rule.output_kind != OutputKind::file_or_dash &&
       (ending.empty() || is_special(output.path)))
     return {};
-  for (const std::string& fits : rule.endings) {
+  for (const std::string& fits : rule.extensions) {
     if (fap::detail::lower_case(fits) == ending) return {};
   }
-  return output.option + " must end in " + list(rule.endings) + ", not " + output.path;
+  return output.option + " must end in " + list(rule.extensions) + ", not " + output.path;
 }
 
 bool is_same_file(const std::string& a, const std::string& b) {
@@ -94,7 +78,7 @@ bool lies_in(const std::string& file, const std::string& folder) {
 std::string harm(const Given& output, const Given& other) {
   if (is_same_file(output.path, other.path)) {
     return output.option + " " + output.path + " is also what " + other.option +
-           " names, and would be lost; give another name";
+           " names, and would be overwritten; give another name";
   }
   const std::string folder = media::segment_folder(output.path);  // replaced as a whole
   if (lies_in(other.path, folder)) {
@@ -106,29 +90,18 @@ std::string harm(const Given& output, const Given& other) {
 
 }  // namespace
 
-CLI::Option* add_output(CLI::Option* option, std::vector<std::string> endings, OutputKind kind) {
-  rules()[option] = {std::move(endings), kind};
-  if (option->get_type_name() == "TEXT") {
-    option->type_name(kind == OutputKind::folder ? "OUT/" : "OUT");
-  }
-  return option;
-}
-
-void forget_outputs() { rules().clear(); }
-
-std::string problem_with_outputs(const CLI::App& command) {
+std::string problem_with_outputs(const OptionTable& command) {
   std::vector<Given> outputs;
   inputs().clear();
-  for (const CLI::Option* option : command.get_options()) {
-    if (option->empty() || option->get_expected_max() == 0) continue;
-    const auto rule = rules().find(option);
-    for (const std::string& value : option->results()) {
-      Given given{called(*option), value};
-      if (rule == rules().end()) {
+  for (const std::unique_ptr<Option>& option : command.options) {
+    if (option->variable.is_flag()) continue;
+    for (const std::string& value : option->values) {
+      Given given{option->name(), value};
+      if (option->output_kind == OutputKind::none) {
         if (value != "-") inputs().push_back(std::move(given));
         continue;
       }
-      if (std::string text = wrong_ending(given, rule->second); !text.empty()) return text;
+      if (std::string text = wrong_ending(given, *option); !text.empty()) return text;
       if (value != "-") outputs.push_back(std::move(given));
     }
   }
@@ -150,12 +123,11 @@ std::string problem_with_outputs(const CLI::App& command) {
   return {};
 }
 
-Result<void> outputs_can_be_written(const CLI::App& command) {
-  for (const CLI::Option* option : command.get_options()) {
-    const auto rule = rules().find(option);
-    if (rule == rules().end()) continue;
-    for (const std::string& path : option->results()) {
-      const OutputKind kind = rule->second.kind;
+Result<void> outputs_can_be_written(const OptionTable& command) {
+  for (const std::unique_ptr<Option>& option : command.options) {
+    const OutputKind kind = option->output_kind;
+    if (kind == OutputKind::none) continue;
+    for (const std::string& path : option->values) {
       // Either: what has no ending and is not there will be made as the command needs it.
       std::error_code ignored;
       const bool either = kind == OutputKind::file_or_folder && path != "-";

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 
@@ -124,7 +123,7 @@ Result<int> run_one(const PhonesOptions& options) {
                 padded(std::string(match_name(symbol)), 8).c_str(), features_of(symbol).c_str());
   }
   say(
-      format("%zu symbols: %zu are phones of the models, %zu are spoken by features, %zu are marks "
+      format("%zu symbols: %zu are phones of the models, %zu are mapped by features, %zu are marks "
              "without a sound, %zu are unknown",
              symbols->size(), counts.exact, counts.features, counts.marks, counts.unknown));
   return kOk;
@@ -171,23 +170,22 @@ Result<int> run(const PhonesOptions& options) {
   return options.all ? run_all(options) : run_one(options);
 }
 
-void add_options(CLI::App& app, PhonesOptions& options) {
-  const auto language =
-      app.add_option("--lang", options.language, "Language or voice of espeak-ng: de, pt-br ...")
-          ->capture_default_str();
-  app.add_flag(
-         "--all-languages", options.all,
-         "A row a voice: how many symbols are phones of the models, spoken by features, marks "
-         "or unknown; how many bilabials close the lips, how many rounded vowels are rounded, "
-         "how many close unrounded ones (flat) are not; how many letters of its language it reads")
-      ->excludes(language);
-  app.add_flag("--json", options.json, "Machine-readable, on standard output");
+void add_options(OptionTable& cli, PhonesOptions& options) {
+  cli.add("--lang", options.language, "Language or voice of espeak-ng: de, pt-br ...")
+      ->show_default();
+  cli.add("--all-languages", options.all,
+          "Print a row per voice: how many symbols are phones of the models, mapped by "
+          "features, marks or unknown; how many bilabials close the lips, how many rounded "
+          "vowels are rounded, how many close unrounded ones (flat) are not; how many "
+          "letters of its language it reads")
+      ->excludes("--lang");
+  cli.add("--json", options.json, "Print a machine-readable table");
 }
 
 }  // namespace
 
 const Command kPhones{
-    "phones", "Each sound that a voice can say: its IPA, features, and the phones spoken for it",
+    "phones", "List the sounds of a voice: IPA, features, and the phones that are used for them",
     "  animeme phones --lang ru\n"
     "  animeme phones --lang sv --json\n"
     "  animeme phones --all-languages",

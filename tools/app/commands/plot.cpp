@@ -1,10 +1,9 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "dam/script/script.h"
-#include "tools/app/commands/bounds.h"
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/fap_names.h"
+#include "tools/app/commands/report.h"
 #include "tools/app/commands/script_options.h"
 #include "tools/speech/talking/voice_file.h"
 #include "tools/view/plot/clips.h"
@@ -30,7 +29,7 @@ Result<int> run(const PlotOptions& options) {
   const Result<std::vector<int>> faps = fap_numbers(options.faps);
   if (!faps) return faps.error();
   if (options.to > 0 && options.to <= options.from) {
-    return usage_error("--to has to lie behind --from");
+    return usage_error("--to must be after --from");
   }
   if (options.difference && options.b.empty()) {
     return usage_error("--difference needs two clips");
@@ -49,14 +48,14 @@ Result<int> run(const PlotOptions& options) {
   plot::Panel panel;
   for (const plot::TimedClip& clip : clips) panel.seconds = std::max(panel.seconds, clip.end());
   if (options.from >= panel.seconds) {
-    return usage_error("--from lies behind the end of the clip");
+    return usage_error("--from is after the end of the clip");
   }
   panel.begin = options.from;
   if (options.to > 0) panel.seconds = std::min(panel.seconds, options.to);
   if (panel.seconds - panel.begin > plot::kLongest) {
     return make_error(
                Code::out_of_range,
-               "more than ten minutes are too wide to plot; choose a part by --from and --to")
+               "more than ten minutes are too wide to plot; choose a part with --from and --to")
         .in_file(options.a);
   }
   const Result<dam::Script> script =
@@ -67,39 +66,39 @@ Result<int> run(const PlotOptions& options) {
     panel.rows.push_back(plot::fap_row(fap, clips));
     if (options.difference) panel.rows.push_back(plot::difference_row(fap, clips[0], clips[1]));
   }
-  if (options.difference) names.emplace_back("difference: second less first");
+  if (options.difference) names.emplace_back("difference: second minus first");
   const auto drawing = plot::drawing_bytes(options.output, plot::curves_svg({panel}, names));
   if (!drawing) return drawing.error();
   if (auto written = write_file(options.output, *drawing); !written) return written.error();
+  report_output(options.output, std::to_string(panel.rows.size()) + " rows of curves",
+                {{"rows", panel.rows.size()}, {"bytes", drawing->size()}});
   return kOk;
 }
 
-void add_options(CLI::App& app, PlotOptions& options) {
-  app.add_option("a", options.a, "FAP text, FBA stream or container (blue line)")->required();
-  app.add_option("b", options.b, "A second one to compare with (orange, dashed)");
-  add_output(app.add_option("-o,--output", options.output,
-                            "Picture to write: .svg or .png; - is SVG on standard output"),
-             {".svg", ".png"}, OutputKind::file_or_dash)
+void add_options(OptionTable& cli, PlotOptions& options) {
+  cli.add("a", options.a, "FAP text, FBA stream or container (blue line)")->required();
+  cli.add("b", options.b, "A second clip to compare with (orange, dashed)");
+  cli.add("-o,--output", options.output,
+          "Picture to write: .svg or .png; - is SVG on standard output")
+      ->output(".svg .png", OutputKind::file_or_dash)
       ->required();
-  app.add_option(
-      "--script", options.script,
-      "Phoneme script to show behind the curves; default: that which a container carries");
-  add_script_options(app, options.reading.reading, options.reading.language);
-  app.add_option("--faps", options.faps, "FAPs by number, name or range (3-13), one row each")
-      ->delimiter(',')
-      ->type_name("FAPS")
-      ->check(read_by(faps_of))
-      ->capture_default_str();
-  app.add_flag("--difference", options.difference, "A row with the second less the first for each");
-  add_length_option(app, options.length);
-  app.add_option("--from", options.from, "Seconds at which the picture begins")
-      ->check(at_least_zero());
-  app.add_option("--to", options.to, "Seconds at which it ends")->check(above_zero());
+  cli.add("--script", options.script,
+          "Phoneme script to show behind the curves; default: that in a container");
+  add_script_options(cli, options.reading.reading, options.reading.language);
+  cli.add("--faps", options.faps, "FAPs by number, name or range (3-13), a row each")
+      ->at_commas()
+      ->type("FAPS")
+      ->check(problem_of<faps_of>)
+      ->show_default();
+  cli.add("--difference", options.difference, "Add rows with the second minus the first clip");
+  add_length_option(cli, options.length);
+  cli.add("--from", options.from, "Start of the picture in seconds")->at_least_zero();
+  cli.add("--to", options.to, "End of the picture in seconds")->above_zero();
 }
 
 }  // namespace
 
-const Command kPlot{"plot", "Curves of one clip or two as a picture",
+const Command kPlot{"plot", "Plot the curves of one or two clips",
                     "  animeme plot talk.fap -o curves.svg\n"
                     "  animeme plot measured.fap talk.fap --script talk.TextGrid --faps 3,4,5,51 "
                     "-o curves.svg\n"

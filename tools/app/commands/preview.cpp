@@ -1,6 +1,5 @@
 #include "tools/app/commands/preview.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iterator>
 
@@ -9,6 +8,7 @@
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/face_stream.h"
 #include "tools/app/commands/interrupt.h"
+#include "tools/app/commands/report.h"
 
 namespace animeme::tools {
 
@@ -31,9 +31,15 @@ Result<int> write_preview(const std::string& path, const fap::Sequence& clip,
       {[&line](double done) { line.update(done); }, [] { return Interrupt::requested(); }});
   line.clear();
   if (!film) return film.error();
-  say(path + ": " + std::to_string(film->pictures) + " pictures, " + std::to_string(film->width) +
-      "x" + std::to_string(film->height) + ", " + fap::format_rate(film->rate) + " a second, " +
-      film->codec);
+  const std::string rate = fap::format_rate(film->rate);
+  report_output(path,
+                std::to_string(film->pictures) + " pictures, " + std::to_string(film->width) + "x" +
+                    std::to_string(film->height) + ", " + rate + " per second, " + film->codec,
+                {{"pictures", film->pictures},
+                 {"width", film->width},
+                 {"height", film->height},
+                 {"rate", rate},
+                 {"codec", film->codec}});
   if (!film->stopped) return kOk;
   say(path + ": stopped; the file holds the first " + seconds_text(film->seconds));
   return kInterrupted;
@@ -58,12 +64,11 @@ Result<int> write_preview(const std::string& path, const fba::AccessUnits& face,
   return write_preview(path, *clip, tracks, {});
 }
 
-void add_preview_option(CLI::App& app, std::string& path) {
-  add_output(
-      app.add_option(
-          "--preview", path,
-          "Also render a video that any player shows: .mp4 (H.264), .webm (VP9) or .webp (silent)"),
-      {".mp4", ".webm", ".mkv", ".webp"}, OutputKind::file);
+void add_preview_option(OptionTable& cli, std::string& path) {
+  cli.add("--preview", path,
+          "Also render a video for ordinary players: .mp4 (H.264), .webm (VP9) or .webp "
+          "(silent)")
+      ->output(".mp4 .webm .mkv .webp", OutputKind::file);
 }
 
 }  // namespace animeme::tools

@@ -7,14 +7,12 @@
 #include "codec/decode/access_unit.h"
 #include "tools/view/studio/film.h"
 
-namespace CLI {
-class App;
-}
-
 namespace animeme::tools {
 
+struct OptionTable;
+
 /// Adds --preview. The name that it gets is empty, or that of a film.
-void add_preview_option(CLI::App& app, std::string& path);
+void add_preview_option(OptionTable& cli, std::string& path);
 
 /// As studio::write_film(). Ctrl-C completes what was rendered: exit code kInterrupted.
 Result<int> write_preview(const std::string& path, const fap::Sequence& clip,

@@ -1,5 +1,4 @@
 // Recording or printing a face and its sound while they come in.
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -8,6 +7,7 @@
 #include "tools/app/commands/face_text.h"
 #include "tools/app/commands/interrupt.h"
 #include "tools/app/commands/receive_options.h"
+#include "tools/app/commands/report.h"
 #include "tools/formats/common/text.h"
 #include "tools/formats/media/live/pacer.h"
 #include "tools/formats/media/live/recorder.h"
@@ -109,7 +109,7 @@ Result<void> Reception::keep(const media::LiveUnit& unit) {
 Result<void> Reception::record(bool idle) {
   auto written = idle ? file_.flush() : file_.write(recorder_);
   if (file_.recodes() && !std::exchange(told_of_recoding_, true)) {
-    say("the sound is coded again as aac, since .ts files take no opus");
+    say("the sound is encoded again as aac, since .ts files do not support opus");
   }
   return written;
 }
@@ -157,7 +157,7 @@ Result<void> Reception::finish() {
     return text_.finish();
   }
   if (extension_of(options_.output) == ".fba" && recorder_.recovery().frozen_seconds > 0) {
-    warn("a raw stream has no place for missing planes: " + options_.output +
+    warn("a raw stream cannot represent missing planes: " + options_.output +
          " is shorter than what was sent; mp4 keeps the times");
   }
   return file_.finish();
@@ -165,10 +165,12 @@ Result<void> Reception::finish() {
 
 void Reception::report() {
   status_.clear();
+  if (!heard()) return;
   const std::string summary = live::receive_summary(recorder_, source_.stats(), intervals_);
   if (!summary.empty()) say(summary);
   if (!options_.json) return;
   std::printf("%s\n", live::receive_json(recorder_, source_.stats(), intervals_).c_str());
+  report_printed();
 }
 
 // "waiting up to 60 s (--wait) for the first packet".
@@ -202,10 +204,10 @@ Error nothing_came(const ReceiveOptions& options, const Reception& reception,
 
 Result<int> run(ReceiveOptions& options) {
   if (options.json && options.output == "-") {
-    return usage_error("--json and the frames of -o - both go to standard output");
+    return usage_error("--json and -o - both write to standard output");
   }
   if (options.output.empty() && options.to.empty()) {
-    return usage_error("say where to: -o FILE to record, --to ADDRESS to send on");
+    return usage_error("give an output: -o FILE to record, --to ADDRESS to forward");
   }
   if (!options.output.empty()) {
     if (auto ok = live::check_place(options.output); !ok) return ok.error();
@@ -249,15 +251,15 @@ Result<int> run(ReceiveOptions& options) {
 }
 
 const Command kReceive{
-    "receive", "Record a live face and its sound, or print its frames as they come",
+    "receive", "Record a live face and its sound, or print its frames as they arrive",
     "  animeme receive talk.sdp -o talk.mp4\n"
     "  animeme receive udp://239.1.2.3:5004 -o talk.fba --duration 60 --stats\n"
     "  animeme receive talk.sdp -o - --fill | my_avatar\n"
     "  animeme receive livelink://:11111 -o phone.mp4 --to http://127.0.0.1:8080\n"
     "Ends when the sender says goodbye, at --duration, after --timeout, or at Ctrl-C (exit code "
-    "130).\nWhat comes is on the disk within a second, under its name, and can be played whatever "
-    "ends the\nprogram; a file of that name is replaced when the first second is there. An .mp4 is "
-    "fragmented.",
+    "130). What arrives is on the disk within a second, under its name, and can be played however "
+    "the program ends; an existing file of that name is replaced after the first second. An .mp4 "
+    "is fragmented.",
     set_up<ReceiveOptions>};
 
 }  // namespace animeme::tools

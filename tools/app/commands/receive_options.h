@@ -8,11 +8,9 @@
 #include "tools/live/sessions/address.h"
 #include "tools/live/sessions/receive_output.h"
 
-namespace CLI {
-class App;
-}  // namespace CLI
-
 namespace animeme::tools {
+
+struct OptionTable;
 
 /// What was said on the command line.
 struct ReceiveOptions {
@@ -32,7 +30,7 @@ struct ReceiveOptions {
 };
 
 /// Adds them.
-void add_options(CLI::App& app, ReceiveOptions& options);
+void add_options(OptionTable& cli, ReceiveOptions& options);
 
 /// Runs the command with them.
 Result<int> run(ReceiveOptions& options);

@@ -1,15 +1,14 @@
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
 
 #include "dam/script/script.h"
 #include "fap/rate_text.h"
-#include "tools/app/commands/bounds.h"
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/fap_names.h"
 #include "tools/app/commands/head_options.h"
 #include "tools/app/commands/preview.h"
+#include "tools/app/commands/report.h"
 #include "tools/app/commands/script_options.h"
 #include "tools/formats/files/cost.h"
 #include "tools/speech/talking/voice_file.h"
@@ -67,22 +66,21 @@ std::optional<Pair> parse_pair(const std::string& text, int most) {
 
 // What is wrong with a value, for the line that is read.
 std::string problem_of_pixels(const std::string& text) {
-  return parse_pair(text, kLargestPicture) ? ""
-                                           : "WIDTHxHEIGHT is wanted, such as 640x640, up to 8192";
+  return parse_pair(text, kLargestPicture) ? "" : "write WIDTHxHEIGHT, such as 640x640, up to 8192";
 }
 
 std::string problem_of_sheet(const std::string& text) {
   const auto sheet = parse_pair(text, kMostPictures);
   return sheet && sheet->x * sheet->y <= kMostPictures
              ? ""
-             : "COLUMNSxROWS is wanted, such as 4x3, of 400 pictures at most";
+             : "write COLUMNSxROWS, such as 4x3, of at most 400 pictures";
 }
 
 std::string problem_of_view(const std::string& text) {
   const auto degrees = render::view_degrees(text);
   return degrees && std::abs(*degrees) <= 360
              ? ""
-             : "front, three-quarter, side or degrees to the left are wanted";
+             : "write front, three-quarter, side or degrees to the left";
 }
 
 // What was asked for, checked.
@@ -161,7 +159,7 @@ Result<int> render_video(const RenderOptions& options, const Plan& plan) {
   }
   Result<std::vector<int>> faps = fap_numbers(options.curves);
   if (!faps) return faps.error();
-  if (faps->size() > 3) return usage_error("--curves shows three FAPs at most");
+  if (faps->size() > 3) return usage_error("--curves shows at most three FAPs");
   preview.faps = std::move(*faps);
   Result<FaceInput> input = read_face(options.input);
   if (!input) return input.error();
@@ -211,6 +209,9 @@ Result<int> draw_all(const RenderOptions& options) {
   const auto file = draw(*plan, *frames, columns, options);
   if (!file) return file.error();
   if (auto written = write_file(options.output, *file); !written) return written.error();
+  report_output(options.output,
+                std::to_string(frames->size()) + (frames->size() == 1 ? " picture" : " pictures"),
+                {{"pictures", frames->size()}, {"columns", columns}, {"bytes", file->size()}});
   return kOk;
 }
 
@@ -223,74 +224,70 @@ Result<int> run(const RenderOptions& options) {
   return code;
 }
 
-void add_options(CLI::App& app, RenderOptions& options) {
-  app.add_option("input", options.input, "FAP text, FBA stream, container or table of curves");
-  add_output(app.add_option("-o,--output", options.output,
-                            "File to write: .mp4 or .mkv (H.264), .webm (VP9), .webp (moves, "
-                            "silent); a still or sheet as .png, .jpg or .webp (with --time and the "
-                            "like); - is PNG on standard output"),
-             {".png", ".jpg", ".jpeg", ".webp", ".mp4", ".webm", ".mkv"}, OutputKind::file_or_dash)
+void add_options(OptionTable& cli, RenderOptions& options) {
+  cli.add("input", options.input, "FAP text, FBA stream, container or table of curves");
+  cli.add("-o,--output", options.output,
+          "File to write: .mp4 or .mkv (H.264), .webm (VP9), .webp (animated, silent); a "
+          "still or sheet as .png, .jpg or .webp (with --time and the like); - is PNG on "
+          "standard output")
+      ->output(".png .jpg .jpeg .webp .mp4 .webm .mkv", OutputKind::file_or_dash)
       ->required();
-  auto* shapes = app.add_option("--shapes", options.shapes,
-                                "Instead of a file: neutral and all visemes or expressions")
-                     ->check(CLI::IsMember({"visemes", "expressions"}));
-  auto* frame =
-      app.add_option("--frame", options.frame, "Frame to show, from 0")->check(at_least_zero());
-  auto* time = app.add_option("--time", options.times, "Seconds to show; several make a sheet")
-                   ->delimiter(',')
-                   ->check(at_least_zero());
-  auto* sheet = app.add_option("--sheet", options.sheet,
-                               "Contact sheet, COLUMNSxROWS: frames evenly over the clip")
-                    ->type_name("COLUMNSxROWS")
-                    ->check(written_so(problem_of_sheet));
-  frame->excludes(time)->excludes(shapes)->excludes(sheet);
-  time->excludes(shapes);
-  add_length_option(app, options.length);
-  add_head_options(app, options.head);
-  app.add_option("--view", options.view,
-                 "front, three-quarter, side, or degrees to the person's left")
-      ->type_name("VIEW")
-      ->check(written_so(problem_of_view))
-      ->capture_default_str();
-  app.add_option("--up", options.up, "Degrees to look from above")
-      ->check(between(-80, 80))
-      ->capture_default_str();
-  app.add_option("--zoom", options.zoom, "1: head and shoulders; 2 is twice as near")
-      ->check(between(0.2, 20.0))
-      ->capture_default_str();
-  app.add_option("--size", options.size, "Pixels of one picture, WIDTHxHEIGHT")
-      ->type_name("WIDTHxHEIGHT")
-      ->check(written_so(problem_of_pixels))
-      ->capture_default_str();
-  app.add_option("--audio", options.audio,
-                 "Video: sound beside the face; default: that of the input, if it has any");
-  app.add_option("--script", options.script, "Video: phones to show below the face");
-  add_script_options(app, options.reading.reading, options.reading.language);
-  app.add_option("--curves", options.curves,
-                 "Video: FAPs to draw below the face, three at most, by number or name")
-      ->delimiter(',')
-      ->expected(1, 3)
-      ->type_name("FAPS")
-      ->check(read_by(faps_of));
-  app.add_option("--rate", options.rate, "Video: pictures a second; default: those of the clip")
-      ->type_name("RATE")
-      ->check(frame_rate());
-  app.add_option("--quality", options.quality, "Video, .jpg and .webp: 0 (best) to 51 (smallest)")
-      ->check(between(0, 51))
-      ->capture_default_str();
-  app.add_option("--audio-bitrate", options.audio_bit_rate, "Video: bits a second of its sound")
-      ->check(between(6000, 320000));
+  cli.add("--shapes", options.shapes,
+          "Instead of a file: neutral face and all visemes or expressions")
+      ->one_of("visemes expressions");
+  cli.add("--frame", options.frame, "Number of the frame to show, from 0")->at_least_zero();
+  cli.add("--time", options.times, "Time in seconds to show; several make a sheet")
+      ->at_commas()
+      ->at_least_zero();
+  cli.add("--sheet", options.sheet,
+          "Contact sheet, COLUMNSxROWS: frames evenly spaced over the clip")
+      ->type("COLUMNSxROWS")
+      ->check(problem_of_sheet);
+  cli.get("--frame")->excludes("--time --shapes --sheet");
+  cli.get("--time")->excludes("--shapes");
+  add_length_option(cli, options.length);
+  add_head_options(cli, options.head);
+  cli.add("--view", options.view, "front, three-quarter, side, or degrees to the person's left")
+      ->type("VIEW")
+      ->check(problem_of_view)
+      ->show_default();
+  cli.add("--up", options.up, "Degrees that the camera looks down from above")
+      ->between(-80, 80)
+      ->show_default();
+  cli.add("--zoom", options.zoom, "1: head and shoulders; 2: twice as near")
+      ->between(0.2, 20.0)
+      ->show_default();
+  cli.add("--size", options.size, "Size of one picture in pixels, WIDTHxHEIGHT")
+      ->type("WIDTHxHEIGHT")
+      ->check(problem_of_pixels)
+      ->show_default();
+  cli.add("--audio", options.audio, "Video: sound; default: that of the input");
+  cli.add("--script", options.script, "Video: phones to show below the face");
+  add_script_options(cli, options.reading.reading, options.reading.language);
+  cli.add("--curves", options.curves,
+          "Video: up to three FAPs to plot below the face, by number or name")
+      ->at_commas()
+      ->at_most(3)
+      ->type("FAPS")
+      ->check(problem_of<faps_of>);
+  cli.add("--rate", options.rate, "Video: frames per second; default: that of the clip")
+      ->frame_rate();
+  cli.add("--quality", options.quality, "Video, .jpg and .webp: 0 (best) to 51 (smallest)")
+      ->between(0, 51)
+      ->show_default();
+  cli.add("--audio-bitrate", options.audio_bit_rate, "Video: bits per second of the sound")
+      ->between(6000, 320000);
 }
 
 }  // namespace
 
 const Command kRender{
-    "render", "Videos and pictures of a face",
+    "render", "Render videos and pictures of a face",
     "  animeme render talk.mp4 -o video.mp4\n"
     "  animeme render talk.fba --audio voice.wav --script talk.TextGrid --curves "
     "open_jaw,raise_b_midlip -o talk.webm\n"
     "  animeme render talk.fap --time 1.5 -o still.png     # .jpg, .webp\n"
-    "  animeme render talk.fap --size 256x256 -o talk.webp    # moves in READMEs and chats\n"
+    "  animeme render talk.fap --size 256x256 -o talk.webp    # animated in READMEs and chats\n"
     "  animeme render talk.mp4 --sheet 4x3 --head man --view three-quarter "
     "-o sheet.png\n"
     "  animeme render --shapes visemes --size 200x200 -o visemes.png",

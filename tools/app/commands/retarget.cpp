@@ -1,5 +1,4 @@
 // A model, or motion, for another face with the same controls: gain and offset from a few poses.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 
@@ -84,7 +83,7 @@ Result<void> rename(const std::vector<std::string>& renames, std::vector<std::st
     const std::size_t equals = item.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == item.size()) {
       return make_error(Code::invalid_argument,
-                        "--rename " + item + ": say OLD=NEW, as jawOpen=Jaw_Open");
+                        "--rename " + item + ": write OLD=NEW, such as jawOpen=Jaw_Open");
     }
     const auto at = std::find(names.begin(), names.end(), item.substr(0, equals));
     if (at == names.end()) {
@@ -93,7 +92,7 @@ Result<void> rename(const std::vector<std::string>& renames, std::vector<std::st
     const std::string name = item.substr(equals + 1);
     if (std::find(names.begin(), names.end(), name) != names.end()) {
       return make_error(Code::invalid_argument,
-                        "--rename " + item + ": another control is called that");
+                        "--rename " + item + ": another control has that name");
     }
     *at = name;
   }
@@ -146,10 +145,11 @@ void tell(const RetargetOptions& options, const std::vector<std::string>& names,
   if (!table.empty()) table.pop_back();
   say(table);
   if (!others.empty()) {
-    say(format("the poses do not move these, which get the gain %.3f of the others:", usual) +
+    say(format("the poses do not move these controls; they get the gain %.3f of the others:",
+               usual) +
         others);
   }
-  if (!none.empty()) say("no pose has these, which stay as they are:" + none);
+  if (!none.empty()) say("no pose has these controls; they stay unchanged:" + none);
 }
 
 Result<void> write_result(const RetargetOptions& options, Subject& subject) {
@@ -180,10 +180,16 @@ Result<void> save_poses(const RetargetOptions& options) {
   if (auto done = write_file(options.save_poses, exchange::write_pose_table(*poses)); !done) {
     return done;
   }
+  if (options.json) {
+    const Json json = {
+        {"output", options.save_poses}, {"labels", poses->labels}, {"controls", poses->names}};
+    std::printf("%s\n", pretty(json).c_str());
+    return {};
+  }
   say(options.save_poses + ": " + std::to_string(poses->labels.size()) + " poses of " +
       std::to_string(poses->names.size()) +
-      " controls; put in what your face has there (leave a field empty where it does not matter), "
-      "and give it to retarget");
+      " controls; enter the values of your face (leave fields empty that do not matter), and pass "
+      "the table to retarget");
   return {};
 }
 
@@ -225,7 +231,7 @@ Result<std::vector<dam::GainOffset>> fit(const RetargetOptions& options, const S
   for (const std::string& name : to->names) {
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
     warn(options.poses + ": there is no control " + name + " in " + options.input +
-         ", it is passed over; --rename OLD=" + name + " if it has another name there");
+         "; it is ignored; --rename OLD=" + name + " if it has another name there");
   }
   std::vector<double> typical;
   if (subject.model) {
@@ -252,11 +258,11 @@ Result<void> apply(const RetargetOptions& options, const std::vector<std::string
 Result<int> retarget(const RetargetOptions& options) {
   const bool to_model = extension_of(options.output) == ".dam";
   if (to_model != is_model(options.input)) {
-    return usage_error(to_model ? "of curves come curves: -o FILE.csv or FILE.fap"
-                                : "of a model comes a model: -o FILE.dam");
+    return usage_error(to_model ? "the result of curves is curves: -o FILE.csv or FILE.fap"
+                                : "the result of a model is a model: -o FILE.dam");
   }
   if (!to_model && options.from.empty()) {
-    return usage_error("curves need --from: the same poses of the face that they are of");
+    return usage_error("curves need --from: the same poses of their own face");
   }
   auto subject = read_subject(options.input);
   if (!subject) return subject.error();
@@ -279,40 +285,38 @@ Result<int> run(const RetargetOptions& options) {
     return kOk;
   }
   if (options.poses.empty() || options.output.empty()) {
-    return usage_error("POSES and -o are needed, or --save-poses to get a table to begin with");
+    return usage_error("POSES and -o are needed, or --save-poses to get a table to start from");
   }
   return retarget(options);
 }
 
-void add_options(CLI::App& app, RetargetOptions& options) {
-  app.add_option("input", options.input,
-                 "Model (.dam, or builtin), or curves (.csv with time_s, .fap) of a face")
+void add_options(OptionTable& cli, RetargetOptions& options) {
+  cli.add("input", options.input,
+          "Model (.dam, or builtin), or curves (.csv with time_s, .fap) of a face")
       ->required();
-  app.add_option("poses", options.poses,
-                 "Poses of your face: a table with the column `pose` (rest, or phones as AA and M) "
-                 "and a column a control; empty fields say nothing");
-  add_output(app.add_option("-o,--output", options.output, "Model or curves to write"),
-             {".dam", ".csv", ".fap"}, OutputKind::file);
-  app.add_option("--from", options.from,
-                 "The same poses of the face that the input is of, by any names; needed for "
-                 "curves. Default: what the model shows for these sounds");
-  add_output(app.add_option("--save-poses", options.save_poses,
-                            "Write the model's own poses, for you to change"),
-             {".csv"}, OutputKind::file_or_dash);
-  app.add_option("--labels", options.labels, "Which poses --save-poses writes")
-      ->delimiter(',')
-      ->capture_default_str();
-  app.add_option("--rename", options.renames,
-                 "OLD=NEW: what your face calls a control of the input");
-  app.add_option("--limits", options.limits.limits,
-                 "Table of limits of your face's controls, as for train");
-  app.add_flag("--json", options.json, "Gains and offsets as JSON on standard output");
+  cli.add("poses", options.poses,
+          "Poses of your face: a table with the column `pose` (rest, or phones such as AA "
+          "and M) and a column per control; empty fields are ignored");
+  cli.add("-o,--output", options.output, "Model or curves to write")
+      ->output(".dam .csv .fap", OutputKind::file);
+  cli.add("--from", options.from,
+          "The same poses of the face of the input, with any names; needed for curves. "
+          "Default: the poses of the model for these phones");
+  cli.add("--save-poses", options.save_poses, "Write the model's own poses, for you to edit")
+      ->output(".csv", OutputKind::file_or_dash);
+  cli.add("--labels", options.labels, "Poses that --save-poses writes")
+      ->at_commas()
+      ->show_default();
+  cli.add("--rename", options.renames, "OLD=NEW: name of a control of the input on your face");
+  cli.add("--limits", options.limits.limits,
+          "Table of limits of your face's controls, as for train");
+  cli.add("--json", options.json, "Print gains and offsets as JSON");
 }
 
 }  // namespace
 
 const Command kRetarget{
-    "retarget", "Fit a model or curves to another face of the same controls, by a few poses",
+    "retarget", "Adapt a model or curves to another face with the same controls, from a few poses",
     "  animeme retarget me.dam --save-poses poses.csv     (change it to what your rig needs)\n"
     "  animeme retarget me.dam poses.csv -o rig.dam\n"
     "  animeme retarget me.dam poses.csv -o rig.dam --rename mouthSmileLeft=smile_L\n"

@@ -1,9 +1,9 @@
 #include "tools/app/commands/script_options.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "dam/script/table_text_internal.h"
+#include "tools/app/commands/options.h"
 #include "tools/app/commands/terminal.h"
 #include "tools/formats/scripts/script_text.h"
 
@@ -24,13 +24,13 @@ std::string list_of_formats() {
 }  // namespace
 
 std::string parse_script_format(const std::string& text, dam::ScriptOptions& reading) {
-  if (text.empty()) return "wants a name; help: a list";
+  if (text.empty()) return "a name is needed; help prints a list";
   std::string_view name = text;
   const std::size_t at = name.find('@');
   if (at != std::string_view::npos) {
     const auto rate = dam::parse_number(name.substr(at + 1));
     if (!rate || !(*rate > 0) || !(*rate < 1e12)) {
-      return "behind @ stands how often a second its numbers count, as in timit@8000";
+      return "after @ comes the number of time units per second, as in timit@8000";
     }
     reading.rate = *rate;
     name = name.substr(0, at);
@@ -38,7 +38,7 @@ std::string parse_script_format(const std::string& text, dam::ScriptOptions& rea
   const std::size_t colon = name.find(':');
   if (colon != std::string_view::npos) {
     const std::string_view unit = name.substr(colon + 1);
-    if (unit != "words" && unit != "phones") return "behind : stands words or phones";
+    if (unit != "words" && unit != "phones") return "after : comes words or phones";
     reading.unit = unit == "words" ? dam::LabelUnit::words : dam::LabelUnit::phones;
     name = name.substr(0, colon);
   }
@@ -60,23 +60,20 @@ Result<dam::Script> script_for(const std::string& path, const std::vector<std::s
   return dam::Script{};
 }
 
-void add_script_options(CLI::App& app, dam::ScriptOptions& reading) {
-  app.add_option("--tier", reading.tier, "Tier of the script, or recording, if it has several")
-      ->option_text("NAME");
-  app.add_option_function<std::string>(
-         "--script-format",
-         [&reading](const std::string& text) {
-           const std::string problem = parse_script_format(text, reading);
-           if (!problem.empty()) throw CLI::ValidationError("--script-format", problem);
-         },
-         "Format of the script, NAME[:words][@RATE], where its content does not tell; help: a list")
-      ->option_text("FORMAT");
+void add_script_options(OptionTable& cli, dam::ScriptOptions& reading) {
+  cli.add("--tier", reading.tier,
+          "Tier of the script, or recording of the table, if it has several")
+      ->value("NAME");
+  cli.add("--script-format", parsed<parse_script_format>(reading),
+          "Format of the script, NAME[:words][@RATE], if it cannot be detected; help prints "
+          "a list")
+      ->value("FORMAT");
 }
 
-void add_script_options(CLI::App& app, dam::ScriptOptions& reading, std::string& language) {
-  add_script_options(app, reading);
-  app.add_option("--lang", language, "Language of a script of words: en, de, fr ...")
-      ->capture_default_str();
+void add_script_options(OptionTable& cli, dam::ScriptOptions& reading, std::string& language) {
+  add_script_options(cli, reading);
+  cli.add("--lang", language, "Language of a script that has words only: en, de, fr ...")
+      ->show_default();
 }
 
 }  // namespace animeme::tools

@@ -9,17 +9,15 @@
 #include "fap/result.h"
 #include "tools/speech/talking/voice_file.h"
 
-namespace CLI {
-class App;
-}
-
 namespace animeme::tools {
 
+struct OptionTable;
+
 /// Adds --tier and --script-format.
-void add_script_options(CLI::App& app, dam::ScriptOptions& reading);
+void add_script_options(OptionTable& cli, dam::ScriptOptions& reading);
 
 /// The same for commands that have no --lang: adds it for words that come without phones.
-void add_script_options(CLI::App& app, dam::ScriptOptions& reading, std::string& language);
+void add_script_options(OptionTable& cli, dam::ScriptOptions& reading, std::string& language);
 
 /// The script of the motion in some files: `path`, where one was named, else what the first of the
 /// files carries that has one (speech::carried_script()), else an empty one. Errors: those of

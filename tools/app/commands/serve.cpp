@@ -3,7 +3,6 @@
 
 #include <sys/resource.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -71,8 +70,8 @@ Result<int> run(ServeOptions& options) {
   wanted.token = *token;
   if (wanted.token.empty() && web::is_open_to_others(wanted.url)) {
     return usage_error(
-        "whoever reaches that address could make heads and have them talk; give a token "
-        "(--token-file), or listen on this machine alone");
+        "anyone who can reach that address could create heads and let them talk; give a token "
+        "(--token-file), or listen on this machine only");
   }
   for (const std::string& model : options.models) {
     const std::size_t equals = model.find('=');
@@ -118,7 +117,7 @@ Result<int> run(ServeOptions& options) {
 }
 
 const Command kServe{
-    "serve", "Serve many talking heads on one port: made, and told what to say, by HTTP requests",
+    "serve", "Serve many talking heads on one port, controlled by HTTP requests",
     "  animeme serve &\n"
     "  curl -X PUT http://127.0.0.1:8080/heads/anna -d '{\"lang\": \"en+f3\"}'\n"
     "  curl http://127.0.0.1:8080/heads/anna/say -d 'Hello, I am Anna.'\n"

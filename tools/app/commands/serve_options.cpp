@@ -1,14 +1,16 @@
 #include "tools/app/commands/serve_options.h"
 
-#include <CLI/CLI.hpp>
-
-#include "tools/app/commands/bounds.h"
-#include "tools/app/commands/brief_help.h"
+#include "tools/app/commands/options.h"
 #include "tools/app/commands/stream_options.h"
 
 namespace animeme::tools {
 
 namespace {
+
+std::string bad_url(const std::string& text) {
+  const auto sink = web::make_web_sink(text);
+  return sink ? std::string() : sink.error().message;
+}
 
 std::string bad_model(const std::string& text) {
   const std::size_t equals = text.find('=');
@@ -16,61 +18,59 @@ std::string bad_model(const std::string& text) {
   return named && equals + 1 < text.size() ? std::string() : "write it as NAME=FILE";
 }
 
-void add_server_web_options(CLI::App& app, web::WebOptions& options) {
+void add_server_web_options(OptionTable& cli, web::WebOptions& options) {
   options.max_clients = 1000;
   options.per_address = 0;
-  app.add_option("--max-clients", options.max_clients, "Viewers of all heads at the same time")
-      ->check(between(1, 10000))
-      ->capture_default_str();
-  app.add_option("--max-per-address", options.per_address,
-                 "Connections of one address at the same time, about two a viewer; its requests "
-                 "are then limited, too; 0: any number, behind a proxy")
-      ->check(between(0, 10000))
-      ->capture_default_str();
-  add_guard_options(app, options);
+  cli.add("--max-clients", options.max_clients, "Most viewers of all heads at the same time")
+      ->between(1, 10000)
+      ->show_default();
+  cli.add("--max-per-address", options.per_address,
+          "Most connections per client address, about two per viewer; also limits its "
+          "requests; 0: no limit, behind a proxy")
+      ->between(0, 10000)
+      ->show_default();
+  add_guard_options(cli, options);
 }
 
 }  // namespace
 
-void add_options(CLI::App& app, ServeOptions& options) {
+void add_options(OptionTable& cli, ServeOptions& options) {
   serve::ServerOptions& server = options.server;
-  app.add_option("heads", options.heads,
-                 "File with heads that are there from the beginning: {\"defaults\": {...}, "
-                 "\"heads\": [{\"name\": \"anna\", \"lang\": \"en+f3\"}, ...]}");
-  app.add_option("--listen", server.url,
-                 "Address: this machine alone, or http://0.0.0.0:8080 for all (with a token)")
-      ->option_text("URL=http://127.0.0.1:8080/")
-      ->check(read_by([](const std::string& url) { return web::make_web_sink(url); }));
-  app.add_option("--token-file", options.token_file,
-                 "File with the token that requests bring, as \"Authorization: Bearer TOKEN\"; "
-                 "default: the variable ANIMEME_TOKEN, else none");
-  app.add_option(
-         "--model", options.models,
-         "A model that heads may have, and its name; may be repeated; else the built-in one")
-      ->option_text("NAME=FILE")
-      ->check(written_so(bad_model))
-      ->allow_extra_args(false);
-  app.add_option("--max-heads", server.most_heads, "Heads at the same time")
-      ->check(between(1, 10000))
-      ->capture_default_str();
-  app.add_option(
-         "--expire", server.expire,
-         "Seconds without a line and a viewer after which a head that was made by a request "
-         "is forgotten; 0: never")
-      ->check(at_least_zero())
-      ->capture_default_str();
-  app.add_flag("--make-on-say", server.make_on_say,
-               "What is said to a head that is not there makes it, with the defaults of the file");
-  app.add_option("--threads", server.threads, "Threads that make planes and sound; 0: one a core")
-      ->check(between(0, 64))
-      ->capture_default_str();
-  add_server_web_options(app, server.web);
-  app.add_flag("--stats", options.stats, "Tell once a second how it goes");
-  app.add_flag("--json", options.json,
-               "The address as JSON on standard output at the start, the figures at the end");
-  show_in_help_all(
-      app, "Details of the server",
-      {"--threads", "--max-clients", "--max-per-address", "--allow-origin", "--host-name"});
+  cli.add("heads", options.heads,
+          "File with heads that exist from the start: {\"defaults\": {...}, \"heads\": [{\"name\": "
+          "\"anna\", \"lang\": \"en+f3\"}, ...]}");
+  cli.add("--listen", server.url,
+          "Address: by default this machine only; http://0.0.0.0:8080 for all (with a token)")
+      ->value("URL=http://127.0.0.1:8080/")
+      ->check(bad_url);
+  cli.add("--token-file", options.token_file,
+          "File with the token that requests need, as \"Authorization: Bearer TOKEN\"; "
+          "default: the variable ANIMEME_TOKEN, else none");
+  cli.add("--model", options.models,
+          "Model that heads may use, with its name; may be repeated; default: the built-in "
+          "model")
+      ->value("NAME=FILE")
+      ->check(bad_model)
+      ->one_at_a_time();
+  cli.add("--max-heads", server.most_heads, "Most heads at the same time")
+      ->between(1, 10000)
+      ->show_default();
+  cli.add("--expire", server.expire,
+          "Seconds without a line or viewer after which a head that was created by a request "
+          "is removed; 0: never")
+      ->at_least_zero()
+      ->show_default();
+  cli.add("--make-on-say", server.make_on_say,
+          "Create a head that does not exist when it is told to speak, with the defaults of "
+          "the file");
+  cli.add("--threads", server.threads, "Threads for synthesis; 0: one per core")
+      ->between(0, 64)
+      ->show_default();
+  add_server_web_options(cli, server.web);
+  cli.add("--stats", options.stats, "Print statistics once per second");
+  cli.add("--json", options.json, "Print the address as JSON at the start, statistics at the end");
+  cli.show_in_help_all("Server",
+                       "--threads --max-clients --max-per-address --allow-origin --host-name");
 }
 
 }  // namespace animeme::tools

@@ -7,11 +7,9 @@
 
 #include "tools/live/serve/server.h"
 
-namespace CLI {
-class App;
-}  // namespace CLI
-
 namespace animeme::tools {
+
+struct OptionTable;
 
 /// What was said on the command line.
 struct ServeOptions {
@@ -24,7 +22,7 @@ struct ServeOptions {
 };
 
 /// Adds them.
-void add_options(CLI::App& app, ServeOptions& options);
+void add_options(OptionTable& cli, ServeOptions& options);
 
 /// Runs the command with them.
 Result<int> run(ServeOptions& options);

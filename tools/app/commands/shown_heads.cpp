@@ -11,8 +11,20 @@
 namespace animeme::tools {
 
 std::vector<studio::HeadChoice> HeadChoices::each() const {
-  std::vector<studio::HeadChoice> choices(std::max<std::size_t>(heads.size(), 1), rest);
-  for (std::size_t i = 0; i < heads.size(); ++i) choices[i].head = heads[i];
+  std::vector<studio::HeadChoice> choices;
+  for (std::string list : heads) {
+    // "woman,man" is two heads, unless a file is called so.
+    std::error_code none;
+    const bool file = std::filesystem::exists(list, none);
+    for (std::size_t comma; !file && (comma = list.find(',')) != std::string::npos;) {
+      choices.push_back(rest);
+      choices.back().head = list.substr(0, comma);
+      list.erase(0, comma + 1);
+    }
+    choices.push_back(rest);
+    choices.back().head = list;
+  }
+  if (choices.empty()) choices.push_back(rest);
   return choices;
 }
 
@@ -30,7 +42,7 @@ Result<std::vector<std::unique_ptr<ShownHead>>> load_shown(const HeadChoices& ch
     if (!head) return head.error();
     if (const std::size_t count = studio::shrink_pictures(*head); count > 0) {
       say(choice.head + ": " + std::to_string(count) +
-          " large textures are smaller in the page (1024 texels a side at most, WebP)");
+          " large textures were scaled down (at most 1024 texels a side, WebP)");
     }
     head::Rig rig = head::make_rig(*head);
     heads.push_back(std::unique_ptr<ShownHead>(new ShownHead{

@@ -14,7 +14,7 @@ namespace animeme::tools {
 
 /// What was given by add_heads_options().
 struct HeadChoices {
-  std::vector<std::string> heads;  ///< names or files; none: the usual head
+  std::vector<std::string> heads;  ///< names, files, or lists of them; none: the usual head
   studio::HeadChoice rest;         ///< --points, --gain
 
   /// One choice for each head.

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <optional>
 
@@ -9,8 +8,6 @@
 #include "dam/speaking/synthesise.h"
 #include "dam/speaking/viseme_track.h"
 #include "fap/rate_text.h"
-#include "tools/app/commands/bounds.h"
-#include "tools/app/commands/brief_help.h"
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/face_stream.h"
 #include "tools/app/commands/face_text.h"
@@ -30,6 +27,7 @@ namespace animeme::tools {
 namespace {
 
 struct SpeakOptions {
+  std::string input;  // a text, or a file
   speech::SpokenOptions spoken;
   std::vector<std::string> outputs;
   std::string output;  // of those, the one that is written
@@ -54,10 +52,9 @@ struct SpeakOptions {
 // A model of another rig can only be written as curves.
 Error not_faps(const Error& error) {
   if (error.code != Code::not_found) return error;
-  return make_error(
-      Code::not_found,
-      "the controls of this model are neither FAPs nor shapes of ARKit; write them as curves "
-      "with -o NAME.csv");
+  return make_error(Code::not_found,
+                    "the controls of this model are neither FAPs nor ARKit blend shapes; write "
+                    "them as curves with -o NAME.csv");
 }
 
 // The signal as it is, one column a control: for models of other rigs than FAPs.
@@ -135,7 +132,7 @@ Result<int> write_result(const SpeakOptions& options, const fap::Sequence& clip,
   Result<fba::AccessUnits> units = access_units({clip, {}}, options.stream);
   if (!units) return units.error();
   const media::Pcm* audio = spoken.audio ? &*spoken.audio : nullptr;
-  if (audio == nullptr) warn("there is no recorded voice (--audio), the file will be silent");
+  if (audio == nullptr) warn("there is no recorded voice (--audio): the file will be silent");
   media::MuxOptions mux;
   mux.audio = audio_settings(options.sound, options.output);
   if (!options.subtitles) mux.text_track = media::TextTrackType::metadata;
@@ -194,7 +191,7 @@ Json language_json(const voice::SpokenLanguage& part) {
 void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam::Signal& signal,
             const dam::SynthesisReport& synthesis) {
   for (const auto& [label, by] : synthesis.replaced) {
-    say_more("the model has no " + label + ", spoken as " + by);
+    say_more("the model has no phone " + label + ": it is spoken as " + by);
   }
   if (!options.json) return;
   Json replaced = Json::object();
@@ -263,7 +260,46 @@ Result<int> write_output(const SpeakOptions& options, dam::Signal signal,
   return write_result(options, *clip, spoken);
 }
 
-Result<int> run(const SpeakOptions& options) {
+// Finds out what the argument without an option is: a text, or a file of a kind that its extension
+// tells. Returns a sentence about what is wrong, or an empty string.
+std::string place_input(SpeakOptions& options) {
+  speech::SpokenOptions& spoken = options.spoken;
+  const std::string& input = options.input;
+  const auto ends_in = [&, extension = " " + extension_of(input) + " "](const char* list) {
+    return std::string(list).find(extension) != std::string::npos;
+  };
+  std::string* place = &spoken.text;
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(input, none)) {
+    if (spoken.has_text)
+      return "--text is one text too many beside '" + input + "'; give one of them";
+    spoken.has_text = true;
+  } else if (ends_in(" .txt .ssml ")) {
+    place = &spoken.text_file;
+  } else if (ends_in(" .wav .flac .mp3 .m4a .aac .ogg .opus .aif .aiff .wma .webm .mp4 .mkv ")) {
+    place = &spoken.audio;
+  } else if (ends_in(" .textgrid .tsv .pho .vtt .srt .lab .phn .wrd .ctm .json .jsonl ")) {
+    place = &spoken.script;
+  } else {
+    return input + " is a file; give it after --text-file, --script or --audio";
+  }
+  const bool was_given = !place->empty();
+  *place = input;
+  const int words = int(spoken.has_text) + int(!spoken.text_file.empty());
+  if (was_given || words + int(!spoken.script.empty()) > 1) {
+    return "'" + input + "' is one input too many beside --text-file, --script or --audio";
+  }
+  if (words > 0 && !spoken.audio.empty()) {
+    return "what is said in a recording comes after --transcript: speak --audio voice.wav "
+           "--transcript 'what she said'";
+  }
+  return {};
+}
+
+Result<int> run(SpeakOptions& options) {
+  if (!options.input.empty()) {
+    if (const std::string wrong = place_input(options); !wrong.empty()) return usage_error(wrong);
+  }
   if (const std::string missing = missing_options(options.spoken); !missing.empty()) {
     return usage_error(missing);
   }
@@ -285,7 +321,7 @@ Result<int> run(const SpeakOptions& options) {
   if (!spoken) return spoken.error();
   if (spoken->heard) {
     say_more(options.spoken.audio + ": " + std::to_string(spoken->script.phones.size()) +
-             format(" phones heard, confidence %.2f", spoken->heard->confidence));
+             format(" phones recognised, confidence %.2f", spoken->heard->confidence));
   }
 
   dam::SynthesisOptions settings = options.motion;
@@ -316,63 +352,64 @@ Result<int> run(const SpeakOptions& options) {
   return written;
 }
 
-void add_options(CLI::App& app, SpeakOptions& options) {
+void add_options(OptionTable& cli, SpeakOptions& options) {
   options.spoken.listen = true;
-  add_spoken_options(app, options.spoken);
-  add_output(
-      app.add_option(
-          "-o,--output", options.outputs,
-          "What to write, once or more: .mp4 .mkv .ts .m3u8 .mpd (face and voice), .fba "
-          "(stream), .fap (text), .csv (curves of the model), .livelink.csv (Live Link Face), "
-          ".json (ARKit's shapes)"),
-      {".mp4", ".mkv", ".ts", ".m3u8", ".mpd", ".fba", ".fap", ".csv", ".json"}, OutputKind::file)
+  cli.add("text", options.input,
+          "Text to speak; or a file with a text, a script or a recorded voice, as after "
+          "--text-file, --script and --audio")
+      ->value("TEXT");
+  add_spoken_options(cli, options.spoken);
+  cli.get("--transcript")->needed.clear();  // the recording may be `text`
+  cli.add("-o,--output", options.outputs,
+          "File to write; may be repeated: .mp4 .mkv .ts .m3u8 .mpd (face and sound), .fba "
+          "(stream), .fap (text), .csv (curves of the model), .livelink.csv (Live Link "
+          "Face), .json (ARKit blend shapes)")
+      ->output(".mp4 .mkv .ts .m3u8 .mpd .fba .fap .csv .json", OutputKind::file)
       ->required()
-      ->allow_extra_args(false);
-  app.add_option("--model", options.model, "Model file of a character; default: the built-in one");
-  app.add_option("--rate", options.rate, "Frames a second: 25, 29.97, 60 ...")
-      ->type_name("RATE")
-      ->check(frame_rate())
-      ->capture_default_str();
-  add_output(app.add_option("--save-script", options.save_script,
-                            "Also write the timed phones: .TextGrid, .tsv, .pho or .vtt"),
-             dam::script_endings(), OutputKind::file);
-  add_motion_options(app, options.motion);
-  app.add_flag("--no-closure", options.no_closure,
-               "Do not force the lips shut on p, b and m, nor to the teeth on f and v");
-  app.add_flag(
-      "--idle-motion,--life,!--no-idle-motion,!--no-life",
-      [&options](std::int64_t on) { options.idle_motion = on > 0; },
-      "Blinks, and brows and head that move a little at stresses, or none; default: yes, "
-      "but not in the model's curves (.csv)");
-  app.add_option("--visemes", options.visemes,
-                 "FAP 1, for players that know visemes only: 'instead' of jaw, lips and tongue, or "
-                 "'beside' them")
-      ->option_text("PLACE")
-      ->check(CLI::IsMember({"instead", "beside"}));
-  app.add_flag("--no-words", options.no_words,
-               "No words and phones in .mp4, .mkv, .m3u8, where view, plot, export and demux find "
-               "them");
-  add_subtitles_option(app, options.subtitles);
-  app.get_option("--lang")->each([&options](const std::string&) { options.language_told = true; });
-  add_exact_option(app, options.exact);
-  app.add_option("--seed", options.seed, "Other times of blinks and another sway of the head")
-      ->option_text("NUMBER=1")
-      ->check(between(0, 1e9));
-  add_stream_options(app, options.stream);
-  add_preview_option(app, options.preview);
-  add_sound_options(app, options.sound, false);
-  app.add_flag("--json", options.json, "Machine-readable summary on standard output");
-  show_in_help_all(app, "Details of coding",
-                   {"--intra-seconds", "--audio-codec", "--audio-bitrate", "--exact"});
+      ->one_at_a_time();
+  cli.add("--model", options.model, "Model file of a character; default: the built-in model");
+  cli.add("--rate", options.rate, "Frames per second: 25, 29.97, 60 ...")
+      ->frame_rate()
+      ->show_default();
+  cli.add("--save-script", options.save_script,
+          "Also write the timed phones: .TextGrid, .tsv, .pho or .vtt")
+      ->output(joined(dam::script_endings(), " "), OutputKind::file);
+  add_motion_options(cli, options.motion);
+  cli.add("--no-closure", options.no_closure,
+          "Do not force lip closure on p, b, m and lip-teeth contact on f, v");
+  cli.add("--idle-motion,.--life,!--no-idle-motion,!.--no-life", options.idle_motion,
+          "Add blinks, and small motion of brows and head that follows the stresses; "
+          "default: yes, but not for curves of the model (.csv)");
+  cli.add("--visemes", options.visemes,
+          "Also set FAP 1, for players that only support visemes: 'instead' of jaw, lips and "
+          "tongue, or 'beside' them")
+      ->value("PLACE")
+      ->one_of("instead beside");
+  cli.add("--no-words", options.no_words,
+          "Leave words and phones out of .mp4, .mkv and .m3u8, where view, plot, export and demux "
+          "read them");
+  add_subtitles_option(cli, options.subtitles);
+  cli.get("--lang")->sets(options.language_told);
+  add_exact_option(cli, options.exact);
+  cli.add("--seed", options.seed, "Random seed of idle motion: times of blinks, sway of the head")
+      ->value("NUMBER=1")
+      ->between(0, 1e9);
+  add_stream_options(cli, options.stream);
+  add_preview_option(cli, options.preview);
+  add_sound_options(cli, options.sound, false);
+  cli.add("--json", options.json, "Print a machine-readable summary");
+  cli.show_in_help_all("Details of coding",
+                       "--intra-seconds --audio-codec --audio-bitrate --exact");
 }
 
 }  // namespace
 
 const Command kSpeak{
-    "speak", "Make a face talk: from text, from a recorded voice, best with its phonemes or text",
-    "  animeme speak --text \"Hello world\" -o hello.mp4    # its words are subtitles in players\n"
+    "speak", "Animate a face from text, a recorded voice, or timed phones",
+    "  animeme speak \"Hello world\" -o hello.mp4\n"
     "  animeme speak --audio voice.wav --transcript \"what she said\" -o talk.mp4\n"
-    "  animeme speak --text Hello --tts \"piper -m en.onnx -f {wav}\" -o hello.mp4   # your voice\n"
+    "  animeme speak --text Hello --tts \"piper -m en.onnx -f {wav}\" -o hello.mp4   # external "
+    "TTS\n"
     "  animeme speak --script voice.TextGrid --audio voice.wav --model me.dam -o talk.fba",
     set_up<SpeakOptions>};
 

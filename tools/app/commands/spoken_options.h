@@ -6,15 +6,13 @@
 
 #include "tools/speech/talking/spoken.h"
 
-namespace CLI {
-class App;
-}
-
 namespace animeme::tools {
+
+struct OptionTable;
 
 /// Adds --text, --text-file, --script, --tier, --script-format, --audio, --transcript, --lang,
 /// --speed, --pitch.
-void add_spoken_options(CLI::App& app, speech::SpokenOptions& options);
+void add_spoken_options(OptionTable& cli, speech::SpokenOptions& options);
 
 /// A sentence about what is missing on the command line, empty if nothing is.
 std::string missing_options(const speech::SpokenOptions& options);

@@ -1,9 +1,7 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
-#include "tools/app/commands/bounds.h"
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/plane_file.h"
 #include "tools/formats/exchange/arkit.h"
@@ -139,11 +137,10 @@ Result<inspect::Statistics> measure_motion(const std::string& path) {
 
 Result<int> run(const StatsOptions& options) {
   if (options.quant && !options.sizes && !options.carriers)
-    return usage_error("--quant goes with --sizes or --carriers");
+    return usage_error("--quant needs --sizes or --carriers");
   if (options.sizes) return print_sizes(options);
   if (options.carriers) return print_carriers(options);
-  if (options.inputs.size() != 1)
-    return usage_error("several files can be given with --sizes or --carriers only");
+  if (options.inputs.size() != 1) return usage_error("several files need --sizes or --carriers");
   const std::string& path = options.inputs.front();
   Result<inspect::Statistics> statistics = PlaneFile::can_read(path)
                                                ? measure_stream(PlaneFile(path), "fba", path)
@@ -155,34 +152,34 @@ Result<int> run(const StatsOptions& options) {
   return kOk;
 }
 
-void add_options(CLI::App& app, StatsOptions& options) {
-  app.add_option("file", options.inputs, "FBA stream, container, FAP or BAP text, curves")
-      ->required();
-  CLI::Option* sizes = app.add_flag("--sizes", options.sizes,
-                                    "How small each clip gets with encode --preset file and live, "
-                                    "beside the form common in the wild");
-  CLI::Option* carriers = app.add_flag("--carriers", options.carriers,
-                                       "What each clip takes by FBA and by ARKit's weights, Live "
-                                       "Link, VMC, ARF and JSON, with their errors");
-  carriers->excludes(sizes);
-  app.add_option("--quant", options.quant,
-                 "With --sizes: quantiser of file and live; with --carriers: of the first row [1]")
-      ->check(between(0, 31));
-  app.add_option("--rms", options.rms, "With --sizes: limit of the error of the last column")
-      ->check(between(1e-3, 1e6))
-      ->capture_default_str()
-      ->needs(sizes);
-  app.add_option("--error", options.carrying.error,
-                 "With --carriers: mm RMS that the rows with * may be off")
-      ->check(between(1e-4, 10))
-      ->capture_default_str()
-      ->needs(carriers);
-  app.add_flag("--json", options.json, "Machine-readable result");
+void add_options(OptionTable& cli, StatsOptions& options) {
+  cli.add("file", options.inputs, "FBA stream, container, FAP or BAP text, curves")->required();
+  cli.add("--sizes", options.sizes,
+          "Print how small each clip gets with encode --preset file and live, compared to "
+          "the format common in the wild");
+  cli.add("--carriers", options.carriers,
+          "Print the size of each clip as FBA and as ARKit weights, Live Link, VMC, ARF and "
+          "JSON, with their errors")
+      ->excludes("--sizes");
+  cli.add("--quant", options.quant,
+          "With --sizes: quantiser of file and live; with --carriers: of the first row; "
+          "default: 1")
+      ->between(0, 31);
+  cli.add("--rms", options.rms, "With --sizes: error limit of the last column")
+      ->between(1e-3, 1e6)
+      ->show_default()
+      ->needs("--sizes");
+  cli.add("--error", options.carrying.error,
+          "With --carriers: mm RMS error that rows marked * may have")
+      ->between(1e-4, 10)
+      ->show_default()
+      ->needs("--carriers");
+  cli.add("--json", options.json, "Print a machine-readable result");
 }
 
 }  // namespace
 
-const Command kStats{"stats", "Bit rate of a stream, activity of each FAP and BAP",
+const Command kStats{"stats", "Print the bit rate of a stream and the activity of each FAP and BAP",
                      "  animeme stats talk.fba\n"
                      "  animeme stats talk.fap --json\n"
                      "  animeme stats --sizes clips/*.fap\n"

@@ -1,14 +1,13 @@
 // Sending a face and its sound while time passes.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "fap/rate_text.h"
-#include "tools/app/commands/brief_help.h"
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/interrupt.h"
 #include "tools/app/commands/motion_options.h"
+#include "tools/app/commands/report.h"
 #include "tools/app/commands/spoken_options.h"
 #include "tools/app/commands/stream_options.h"
 #include "tools/formats/media/container.h"
@@ -200,6 +199,7 @@ void print_result(const StreamOptions& options, const live::StreamReport& report
   say(report.summary(seconds, sinks, pacer, traces));
   if (options.json) {
     std::printf("%s\n", report.json(seconds, sinks, pacer, traces).c_str());
+    report_printed();
   }
 }
 
@@ -252,7 +252,7 @@ Result<int> run(StreamOptions& options) {
     if (const std::string bad = problem_of(options.heads); !bad.empty()) return usage_error(bad);
     const auto serves = [](const std::string& url) { return url.starts_with("http://"); };
     if (std::none_of(options.to.begin(), options.to.end(), serves)) {
-      warn("--head is for the page of an http:// address, and there is none");
+      warn("--head is for the page of an http:// address, but there is none");
     } else if (auto ok = give_heads(options.heads, options.sink.web); !ok) {
       return ok.error();
     }
@@ -273,7 +273,7 @@ Result<int> run(StreamOptions& options) {
 }
 
 const Command kStream{
-    "stream", "Send a face and its sound live: a clip, a text, or lines as they are typed",
+    "stream", "Stream a face and its sound live: a clip, a text, or lines as they are typed",
     "  animeme stream talk.mp4 --to rtp://192.0.2.7:5004 --sdp talk.sdp --loop\n"
     "  animeme stream talk.fba --audio talk.wav --to udp://239.1.2.3:5004 --intra-seconds 1\n"
     "  animeme stream --text \"Hello\" --to srt://192.0.2.7:5005 --to http://127.0.0.1:8080\n"

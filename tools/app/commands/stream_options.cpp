@@ -1,11 +1,8 @@
 #include "tools/app/commands/stream_options.h"
 
-#include <CLI/CLI.hpp>
-
-#include "tools/app/commands/bounds.h"
-#include "tools/app/commands/brief_help.h"
 #include "tools/app/commands/head_options.h"
 #include "tools/app/commands/motion_options.h"
+#include "tools/app/commands/options.h"
 #include "tools/app/commands/outputs.h"
 #include "tools/app/commands/spoken_options.h"
 
@@ -13,152 +10,142 @@ namespace animeme::tools {
 
 namespace {
 
-void add_source_options(CLI::App& app, StreamOptions& options) {
-  app.add_option("input", options.input,
-                 "File with a face: mp4, mkv, ts (with its sound), .fba, .fap");
+void add_source_options(OptionTable& cli, StreamOptions& options) {
+  cli.add("input", options.input, "File with a face: .mp4, .mkv, .ts (with its sound), .fba, .fap");
   options.program.spoken.listen = true;
-  add_spoken_options(app, options.program.spoken);
-  app.add_option("--say", options.program.say,
-                 "Lines of text to speak as they come, - for standard input; between them the face "
-                 "idles");
-  app.add_option("--say-json", options.program.say_json,
-                 "Pieces of sound with text, words or visemes and their times, one JSON a line, "
-                 "as speech services give them")
-      ->option_text("FILE")
-      ->excludes("--say")
-      ->excludes("--tts");
-  app.add_option("--say-audio", options.program.say_audio,
-                 "A voice as it comes, which the face follows: WAV, - for standard input")
-      ->option_text("FILE");
-  app.add_option("--pcm", options.pcm, "--say-audio is bare samples of 16 bit: 16000, 48000:2 ...")
-      ->option_text("RATE[:CHANNELS]")
-      ->check(read_by(speech::parse_bare_sound))
+  add_spoken_options(cli, options.program.spoken);
+  cli.add("--say", options.program.say,
+          "Lines of text to speak as they arrive, - for standard input; the face idles "
+          "between them");
+  cli.add("--say-json", options.program.say_json,
+          "Audio chunks with text, words or visemes and their times as JSON lines, as speech "
+          "services deliver them")
+      ->value("FILE")
+      ->excludes("--say --tts");
+  cli.add("--say-audio", options.program.say_audio,
+          "A voice as it arrives, which the face follows: WAV, - for standard input")
+      ->value("FILE");
+  cli.add("--pcm", options.pcm, "--say-audio is raw 16-bit PCM: 16000, 48000:2 ...")
+      ->value("RATE[:CHANNELS]")
+      ->check(problem_of<speech::parse_bare_sound>)
       ->needs("--say-audio");
-  app.add_option("--delay", options.program.delay,
-                 "Seconds from sound that comes to its face and its being heard")
-      ->option_text("0.25..2=0.3")
-      ->check(between(0.25, 2.0))
+  cli.add("--delay", options.program.delay,
+          "Latency in seconds from the arrival of sound to its playback with the face")
+      ->value("0.25..2=0.3")
+      ->between(0.25, 2.0)
       ->needs("--say-audio");
-  app.add_option(
-         "--control", options.program.control,
-         "Path of a socket (Unix domain, mode 0600) for more lines and commands; events come "
-         "back on it")
-      ->option_text("FILE")
+  cli.add("--control", options.program.control,
+          "Path of a Unix domain socket (mode 0600) for further lines and commands; events "
+          "are sent back on it")
+      ->value("FILE")
       ->excludes("--say-audio");
-  add_output(
-      app.add_option("--events", options.events,
-                     "What becomes of each line, word and phone and when, one JSON a line; - "
-                     "for standard output"),
-      {});
-  app.add_flag("--loop", options.program.loop, "Begin the clip again at its end; times go on");
-  app.add_option("--duration", options.program.duration, "End after so many seconds")
-      ->check(above_zero());
-  app.add_flag("--no-sound", options.no_sound, "Send the face alone");
-  app.add_option("--model", options.program.model,
-                 "Model file of a character; default: the built-in one");
-  app.add_option("--rate", options.rate, "Frames a second of a face made from text or script")
-      ->type_name("RATE")
-      ->check(frame_rate())
-      ->capture_default_str();
-  add_motion_options(app, options.program.motion);
-  app.add_flag("--idle-motion,--life", options.program.idle_motion,
-               "Add blinks, and brows and head that move a little");
-  app.add_option("--seed", options.program.seed,
-                 "Other times of blinks and another sway of the head")
+  cli.add("--events", options.events,
+          "Write the progress of each line, word and phone as JSON lines; - for standard "
+          "output")
+      ->output("");
+  cli.add("--loop", options.program.loop, "Repeat the clip; time stamps continue");
+  cli.add("--duration", options.program.duration, "End after so many seconds")->above_zero();
+  cli.add("--no-sound", options.no_sound, "Send the face only");
+  cli.add("--model", options.program.model,
+          "Model file of a character; default: the built-in model");
+  cli.add("--rate", options.rate, "Frames per second of a face that is synthesised")
+      ->frame_rate()
+      ->show_default();
+  add_motion_options(cli, options.program.motion);
+  cli.add("--idle-motion,.--life", options.program.idle_motion,
+          "Add blinks, and small motion of brows and head");
+  cli.add("--seed", options.program.seed,
+          "Random seed of idle motion: times of blinks, sway of the head")
       ->needs("--idle-motion")
-      ->check(between(0, 1e9));
+      ->between(0, 1e9);
 }
 
-void add_coding_options(CLI::App& app, StreamOptions& options) {
-  app.add_option("--intra-seconds", options.program.coding.intra_seconds,
-                 "Seconds between points where receivers can join; streams and containers whose "
-                 "own lie farther apart are coded again, all others are sent as they are")
-      ->check(between(0.04, 60.0))
-      ->capture_default_str();
-  app.add_flag(
-      "--copy", options.program.coding.copy,
-      "Send streams and containers as they are, however far their joining points are apart");
-  app.add_option("--quant", options.program.coding.quant,
-                 "Quantiser fap_quant of faces that are coded")
-      ->check(between(0, 31))
-      ->capture_default_str();
-  app.add_option("--audio-codec", options.codec,
-                 "aac or opus; default: what a file has, opus for --say, else aac")
-      ->check(CLI::IsMember({"aac", "opus"}));
-  app.add_option("--audio-bitrate", options.program.coding.audio.bit_rate,
-                 "Bits a second of sound that is coded; default: aac 64000, opus 40000")
-      ->check(between(6000, 320000));
+void add_coding_options(OptionTable& cli, StreamOptions& options) {
+  cli.add("--intra-seconds", options.program.coding.intra_seconds,
+          "Seconds between random access points; streams and containers with longer "
+          "intervals are encoded again, all others are sent unchanged")
+      ->between(0.04, 60.0)
+      ->show_default();
+  cli.add("--copy", options.program.coding.copy,
+          "Send streams and containers unchanged, however long their intra intervals are");
+  cli.add("--quant", options.program.coding.quant,
+          "Quantiser (fap_quant) of faces that are encoded")
+      ->between(0, 31)
+      ->show_default();
+  cli.add("--audio-codec", options.codec,
+          "aac or opus; default: that of the file, opus for --say, else aac")
+      ->one_of("aac opus");
+  cli.add("--audio-bitrate", options.program.coding.audio.bit_rate,
+          "Bits per second of sound that is encoded; default: aac 64000, opus 40000")
+      ->between(6000, 320000);
 }
 
-void add_web_options(CLI::App& app, web::WebOptions& options) {
-  app.add_option("--max-clients", options.max_clients,
-                 "http: viewers at the same time, each with a face, a sound or both")
-      ->check(between(1, 1000))
-      ->capture_default_str();
-  app.add_option("--max-per-address", options.per_address,
-                 "http: connections of one address at the same time, about two a viewer; 0: any "
-                 "number, behind a proxy")
-      ->check(between(0, 10000))
-      ->capture_default_str();
-  add_guard_options(app, options);
+void add_web_options(OptionTable& cli, web::WebOptions& options) {
+  cli.add("--max-clients", options.max_clients,
+          "http: most viewers at the same time, each with a face, sound or both")
+      ->between(1, 1000)
+      ->show_default();
+  cli.add("--max-per-address", options.per_address,
+          "http: most connections per client address, about two per viewer; 0: no limit, "
+          "behind a proxy")
+      ->between(0, 10000)
+      ->show_default();
+  add_guard_options(cli, options);
 }
 
 }  // namespace
 
-void add_guard_options(CLI::App& app, web::WebOptions& options) {
-  app.add_option("--allow-origin", options.allow_origins,
-                 "Pages elsewhere that may use the web server, as https://example.org; may be "
-                 "repeated; *: all")
-      ->allow_extra_args(false);
-  app.add_option("--host-name", options.host_names,
-                 "A name by which browsers call the web server, besides the names and addresses of "
-                 "its machine; may be repeated; *: any")
-      ->allow_extra_args(false);
+void add_guard_options(OptionTable& cli, web::WebOptions& options) {
+  cli.add("--allow-origin", options.allow_origins,
+          "Origin of other web pages that may use the server, such as https://example.org; "
+          "may be repeated; *: all")
+      ->one_at_a_time();
+  cli.add("--host-name", options.host_names,
+          "Host name of the web server besides the names and addresses of the machine; may "
+          "be repeated; *: any")
+      ->one_at_a_time();
 }
 
-void add_options(CLI::App& app, StreamOptions& options) {
-  add_source_options(app, options);
-  app.add_option(
-         "--to", options.to,
-         "Address: rtp://host:port, udp://host:port, srt://host:port; http://host:port to serve "
-         "browsers, webrtc://host:port the same by WebRTC; whip://host:port/path to a WebRTC "
-         "server; for engines livelink://host:port, vmc://host:port, osc://host:port; may be "
-         "repeated")
+void add_options(OptionTable& cli, StreamOptions& options) {
+  add_source_options(cli, options);
+  cli.add("--to", options.to,
+          "Address: rtp://host:port, udp://host:port, srt://host:port; http://host:port to "
+          "serve browsers, webrtc://host:port likewise by WebRTC; whip://host:port/path to a "
+          "WebRTC server; for engines livelink://host:port, vmc://host:port, "
+          "osc://host:port; may be repeated")
       ->required()
-      ->allow_extra_args(false);
-  add_output(app.add_option("--sdp", options.sdp,
-                            "Session description to write for an rtp address; receivers need it"),
-             {".sdp"})
-      ->allow_extra_args(false);
-  app.add_option("--mtu", options.sink.media.rtp.mtu, "Largest datagram, bytes")
-      ->check(between(256, 65000))
-      ->capture_default_str();
-  app.add_option("--repeat", options.sink.media.rtp.repeat,
-                 "rtp: how often each packet of the face is sent, against loss")
-      ->check(between(1, 8))
-      ->capture_default_str();
-  app.add_option("--repeat-after", options.sink.media.rtp.repeat_after,
-                 "rtp: a copy follows its original by so many packets of the face; more survive "
-                 "longer bursts of loss and cost that much delay where one is needed")
-      ->check(between(1, 50))
-      ->capture_default_str();
-  app.add_option("--bundle", options.sink.media.rtp.bundle,
-                 "rtp: planes a packet; more save headers and cost delay")
-      ->check(between(1, 16))
-      ->capture_default_str();
-  add_web_options(app, options.sink.web);
-  add_heads_options(app, options.heads.heads, options.heads.rest);
-  add_coding_options(app, options);
-  app.add_flag("--fast", options.fast, "Do not wait for the clock, send as fast as it goes");
-  app.add_flag("--stats", options.stats, "Tell once a second how it goes");
-  app.add_flag("--json", options.json, "Machine-readable summary on standard output at the end");
-  show_in_help_all(app, "Details of voices, coding and transport",
-                   {"--tier",         "--script-format", "--max-seconds", "--speed",
-                    "--pitch",        "--seed",          "--mtu",         "--repeat",
-                    "--repeat-after", "--bundle",        "--max-clients", "--max-per-address",
-                    "--allow-origin", "--host-name",     "--delay",       "--intra-seconds",
-                    "--points",       "--gain",          "--copy",        "--quant",
-                    "--sharpness",    "--articulate",    "--audio-codec", "--audio-bitrate"});
+      ->one_at_a_time();
+  cli.add("--sdp", options.sdp,
+          "Write the session description of an rtp address, which receivers need")
+      ->output(".sdp")
+      ->one_at_a_time();
+  cli.add("--mtu", options.sink.media.rtp.mtu, "Largest datagram in bytes")
+      ->between(256, 65000)
+      ->show_default();
+  cli.add("--repeat", options.sink.media.rtp.repeat,
+          "rtp: how many times each packet of the face is sent, against loss")
+      ->between(1, 8)
+      ->show_default();
+  cli.add("--repeat-after", options.sink.media.rtp.repeat_after,
+          "rtp: send a copy so many packets of the face after its original; larger values "
+          "survive longer bursts of loss and add delay when a copy is needed")
+      ->between(1, 50)
+      ->show_default();
+  cli.add("--bundle", options.sink.media.rtp.bundle,
+          "rtp: planes per packet; larger values save headers and add delay")
+      ->between(1, 16)
+      ->show_default();
+  add_web_options(cli, options.sink.web);
+  add_heads_options(cli, options.heads.heads, options.heads.rest);
+  add_coding_options(cli, options);
+  cli.add("--fast", options.fast, "Send as fast as possible instead of in real time");
+  cli.add("--stats", options.stats, "Print statistics once per second");
+  cli.add("--json", options.json, "Print a machine-readable summary at the end");
+  cli.show_in_help_all(
+      "Voices, coding and transport",
+      "--tier --script-format --max-seconds --speed --pitch --seed --mtu --repeat --repeat-after "
+      "--bundle --max-clients --max-per-address --allow-origin --host-name --delay --intra-seconds "
+      "--points --gain --copy --quant --sharpness --articulate --audio-codec --audio-bitrate");
 }
 
 }  // namespace animeme::tools

@@ -9,11 +9,9 @@
 #include "tools/live/sessions/address.h"
 #include "tools/live/sessions/program.h"
 
-namespace CLI {
-class App;
-}  // namespace CLI
-
 namespace animeme::tools {
+
+struct OptionTable;
 
 /// What was said on the command line.
 struct StreamOptions {
@@ -34,10 +32,10 @@ struct StreamOptions {
 };
 
 /// Adds them.
-void add_options(CLI::App& app, StreamOptions& options);
+void add_options(OptionTable& cli, StreamOptions& options);
 
 /// Adds --allow-origin and --host-name: who may use a web server, and by which names.
-void add_guard_options(CLI::App& app, web::WebOptions& options);
+void add_guard_options(OptionTable& cli, web::WebOptions& options);
 
 /// Runs the command with them.
 Result<int> run(StreamOptions& options);

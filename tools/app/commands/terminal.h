@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "fap/result.h"
 #include "tools/formats/files/log.h"
 
 namespace animeme::tools {
@@ -14,6 +15,14 @@ void warn(const std::string& text);
 void say(const std::string& text);
 /// The same for libraries, which have something to say but do not print.
 Log terminal_log();
+/// The width of the terminal: of the variable COLUMNS, of standard output, else 80.
+int terminal_width();
+/// How a command line is reported: the command that usage errors name, and whether errors are
+/// also printed as JSON on standard output (--json).
+void set_reporting(const std::string& command, bool json);
+/// Prints an error on standard error, and as {"error": ...} on standard output if --json was given.
+/// Returns the exit code.
+int report_error(const Error& error);
 /// Set by main() from --quiet.
 void set_quiet(bool quiet);
 /// Prints a line of talk if --verbose was given, and not --quiet.

@@ -1,10 +1,8 @@
 #include "dam/training/train.h"
 
-#include <CLI/CLI.hpp>
-#include <memory>
+#include <utility>
 
-#include "tools/app/commands/bounds.h"
-#include "tools/app/commands/brief_help.h"
+#include "tools/app/commands/options.h"
 #include "tools/app/commands/shard.h"
 #include "tools/app/commands/train_base.h"
 #include "tools/app/commands/train_parts.h"
@@ -25,6 +23,7 @@ struct TrainOptions {
   bool single_mode = false;
   bool plain_sum = false;
   bool json = false;
+  std::vector<std::pair<const Option*, const char*>> of_methods;  // options of some methods only
 };
 
 dam::TrainOptions train_options(const TrainOptions& options) {
@@ -93,30 +92,22 @@ std::string misuse(const TrainOptions& options) {
 }
 
 // Options that mean nothing to most methods: said, rather than swallowed.
-std::string misplaced(const CLI::App& app, const std::string& method) {
-  const std::pair<const char*, const char*> owners[] = {
-      {"--order", "dam-paper"},
-      {"--single-mode", "dam-paper"},
-      {"--plain-sum", "dam-paper or cohen-massaro"},
-      {"--free-time", "dam-paper or cohen-massaro"},
-      {"--ridge", "dam-paper or cohen-massaro"},
-      {"--ridge-factor", "dam"},
-      {"--states", "mmm"},
-  };
-  for (const auto& [option, owner] : owners) {
+std::string misplaced(const TrainOptions& options) {
+  for (const auto& [option, owner] : options.of_methods) {
     const std::string names = std::string(" ") + owner + " ";
-    if (app.count(option) == 0 || names.find(" " + method + " ") != std::string::npos) continue;
-    return std::string(option) + " belongs to --method " + owner + ", not to " + method;
+    const bool fits = names.find(" " + options.method + " ") != std::string::npos;
+    if (!option->given() || fits) continue;
+    return option->name() + " belongs to --method " + owner + ", not to " + options.method;
   }
   return {};
 }
 
-Result<int> run(const CLI::App& app, TrainOptions& options) {
+Result<int> run(TrainOptions& options) {
   std::string text = misuse(options);
   if (!options.shard.empty())
     read_shard(options.shard, options.corpus.shard, options.corpus.shards);
   if (!text.empty()) return usage_error(text);
-  text = misplaced(app, options.method);
+  text = misplaced(options);
   if (!text.empty()) return usage_error(text);
   if (!options.parts.merge.empty())
     return merge(options.parts, options.output, options.corpus, train_options(options),
@@ -132,93 +123,96 @@ Result<int> run(const CLI::App& app, TrainOptions& options) {
   return run_whole(options);
 }
 
-void add_part_options(CLI::App& app, PartSettings& parts, std::string& shard) {
-  add_output(app.add_option("--accumulate", parts.accumulate,
-                            "Add the sentences, one at a time, to this file of sums instead of "
-                            "training; a file that is there is continued and counts no sentence "
-                            "twice"),
-             {});
-  app.add_option(
-      "--dominance", parts.dominance,
-      "With --accumulate and --mpi: a model of the method dam (a file, or builtin) whose "
-      "dominance the sums are taken for; the same for all parts; default: start values");
-  app.add_option("--save-every", parts.save_every,
-                 "With --accumulate: save after so many new sentences")
-      ->check(between(1, 1000000))
-      ->capture_default_str();
-  app.add_option("--shard", shard,
-                 "With --accumulate: only these sentences, by their ids: 1/4 to 4/4")
-      ->option_text("I/N")
-      ->check(written_so(problem_of_shard));
-  app.add_flag(
-      "--mpi", parts.mpi,
-      "Under mpirun: every process takes sums of its part of the corpus, the first one makes "
-      "the model of all");
-  app.add_option("--merge", parts.merge, "Train on the sums of these files instead of a corpus");
+void add_part_options(OptionTable& cli, PartSettings& parts, std::string& shard) {
+  cli.add("--accumulate", parts.accumulate,
+          "Add the sentences one by one to this file of statistics instead of training; an "
+          "existing file is continued, and no sentence is counted twice")
+      ->output("");
+  cli.add("--dominance", parts.dominance,
+          "With --accumulate and --mpi: a model of the method dam (a file, or builtin) that "
+          "provides the dominance; the same for all parts; default: initial values");
+  cli.add("--save-every", parts.save_every, "With --accumulate: save after so many new sentences")
+      ->between(1, 1000000)
+      ->show_default();
+  cli.add("--shard", shard,
+          "With --accumulate: use only this part of the sentences, chosen by their ids: 1/4 "
+          "to 4/4")
+      ->value("I/N")
+      ->check(problem_of_shard);
+  cli.add("--mpi", parts.mpi,
+          "Under mpirun: each process accumulates its part of the corpus, the first one "
+          "trains the model");
+  cli.add("--merge", parts.merge, "Train on the statistics in these files instead of a corpus");
 }
 
-Action add_train(CLI::App& app) {
-  auto options = std::make_shared<TrainOptions>();
-  app.add_option("corpus", options->corpus.folder,
-                 "Folder with utterances.tsv, phonemes/ID.tsv and fap/ID.csv");
-  add_output(app.add_option("-o,--output", options->output, "Model file to write"), {".dam"});
-  app.add_option("--method", options->method, "Kind of model")
-      ->check(CLI::IsMember(method_names()))
-      ->capture_default_str();
-  app.add_option("--base", options->base,
-                 "Little material: bend this model to it in place of learning everything: builtin, "
-                 "a model file, or "
-                 "a folder with a corpus of somebody else");
-  app.add_option("--split", options->corpus.split, "Train on these rows only, e.g. train");
-  add_corpus_options(app, options->corpus);
-  add_lag_option(app, options->corpus);
-  app.add_option("--controls", options->corpus.controls,
-                 "Controls to learn: FAP numbers (3-13,51-60) or column names; default: all")
-      ->delimiter(',');
-  app.add_option("--limits", options->corpus.limits,
-                 "Table of what controls can be: control, low, high, opposite; default: limits.tsv "
-                 "of the corpus, "
-                 "else 0..1 for ARKit's shapes and for what never leaves 0..1")
-      ->option_text("FILE");
-  app.add_option("--order", options->train.animeme.order, "dam-paper: degree M of the polynomials")
-      ->option_text("0..8=4")
-      ->check(between(0, 8));
-  app.add_option("--states", options->train.trajectory.states,
-                 "mmm: Gaussians a phone, one for each part of its time")
-      ->option_text("1..8=3")
-      ->check(between(1, 8));
-  app.add_flag("--single-mode", options->single_mode, "dam-paper: one mode a phone");
-  app.add_flag("--plain-sum", options->plain_sum,
-               "Methods of the paper: plain sum of Eq. 2, not divided by the sum of dominances");
-  app.add_flag("--free-time", options->free_time,
-               "Methods of the paper: extrapolate the polynomials freely");
-  app.add_option("--ridge-factor", options->train.refined.ridge,
-                 "dam: all ridges times this; 0 chooses by held-out sentences")
-      ->check(between(0.0, 1000.0))
-      ->capture_default_str();
-  app.add_option("--ridge", options->train.animeme.ridge,
-                 "Methods of the paper: ridge on the coefficients, in frames")
-      ->check(at_least_zero())
-      ->capture_default_str();
-  app.add_option("--max-iterations", options->train.max_iterations, "Steps at most")
-      ->check(between(0, 1000))
-      ->capture_default_str();
-  app.add_option("--threads", options->train.threads, "0: as the machine has")
-      ->check(between(0, 1024));
-  app.add_option("--attribution", options->train.attribution,
-                 "Whom to name when the model is passed on; kept in the model");
-  add_part_options(app, options->parts, options->shard);
-  app.add_flag("--json", options->json, "Machine-readable summary on standard output");
-  show_in_help_all(
-      app, "Methods that stand beside ours for comparison",
-      {"--order", "--states", "--single-mode", "--plain-sum", "--free-time", "--ridge"});
-  return [&app, options] { return run(app, *options); };
+void add_options(OptionTable& cli, TrainOptions& options) {
+  cli.add("corpus", options.corpus.folder,
+          "Folder with utterances.tsv, phonemes/ID.tsv and fap/ID.csv");
+  cli.add("-o,--output", options.output, "Model file to write")->output(".dam");
+  cli.add("--method", options.method, "Kind of model")
+      ->one_of(joined(method_names(), " "))
+      ->show_default();
+  cli.add("--base", options.base,
+          "For little material: adapt this model instead of learning everything: builtin, a "
+          "model file, or a folder with a corpus of another speaker");
+  cli.add("--split", options.corpus.split, "Train on these rows only, such as train");
+  add_corpus_options(cli, options.corpus);
+  add_lag_option(cli, options.corpus);
+  cli.add("--controls", options.corpus.controls,
+          "Controls to learn: FAP numbers (3-13,51-60) or column names; default: all")
+      ->at_commas();
+  cli.add("--limits", options.corpus.limits,
+          "Table of the limits of controls: control, low, high, opposite; default: "
+          "limits.tsv of the corpus, else 0..1 for ARKit blend shapes and for controls that "
+          "stay within 0..1")
+      ->value("FILE");
+  cli.add("--order", options.train.animeme.order, "dam-paper: degree M of the polynomials")
+      ->value("0..8=4")
+      ->between(0, 8);
+  cli.add("--states", options.train.trajectory.states,
+          "mmm: Gaussians per phone, one for each part of its time")
+      ->value("1..8=3")
+      ->between(1, 8);
+  cli.add("--single-mode", options.single_mode, "dam-paper: one mode per phone");
+  cli.add("--plain-sum", options.plain_sum,
+          "Methods of the paper: plain sum of Eq. 2, not divided by the sum of dominances");
+  cli.add("--free-time", options.free_time,
+          "Methods of the paper: extrapolate the polynomials freely");
+  cli.add("--ridge-factor", options.train.refined.ridge,
+          "dam: factor for all ridges; 0: chosen on held-out sentences")
+      ->between(0.0, 1000.0)
+      ->show_default();
+  cli.add("--ridge", options.train.animeme.ridge,
+          "Methods of the paper: ridge on the coefficients, in frames")
+      ->at_least_zero()
+      ->show_default();
+  cli.add("--max-iterations", options.train.max_iterations, "Most iterations")
+      ->between(0, 1000)
+      ->show_default();
+  cli.add("--threads", options.train.threads, "0: one per core")->between(0, 1024);
+  cli.add("--attribution", options.train.attribution,
+          "Attribution that licences require; stored in the model");
+  add_part_options(cli, options.parts, options.shard);
+  cli.add("--json", options.json, "Print a machine-readable summary");
+  cli.show_in_help_all("Methods for comparison",
+                       "--order --states --single-mode --plain-sum --free-time --ridge");
+  const std::pair<const char*, const char*> owners[] = {
+      {"--order", "dam-paper"},
+      {"--single-mode", "dam-paper"},
+      {"--plain-sum", "dam-paper or cohen-massaro"},
+      {"--free-time", "dam-paper or cohen-massaro"},
+      {"--ridge", "dam-paper or cohen-massaro"},
+      {"--ridge-factor", "dam"},
+      {"--states", "mmm"},
+  };
+  for (const auto& [option, owner] : owners)
+    options.of_methods.emplace_back(cli.get(option), owner);
 }
 
 }  // namespace
 
 const Command kTrain{
-    "train", "Learn how a character talks from aligned recordings",
+    "train", "Train a model of how a character talks from aligned recordings",
     "  animeme train my_corpus -o me.dam\n"
     "  animeme train half_a_minute --base builtin -o me.dam\n"
     "  animeme train late_takes --lag auto -o me.dam\n"
@@ -227,6 +221,6 @@ const Command kTrain{
     "  animeme train large/b --accumulate b.stats --dominance base.dam   (elsewhere)\n"
     "  animeme train --merge a.stats b.stats -o large.dam\n"
     "  mpirun -n 8 animeme train large --mpi --dominance base.dam -o large.dam",
-    add_train};
+    set_up<TrainOptions>};
 
 }  // namespace animeme::tools

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -9,6 +8,7 @@
 #include "tools/app/commands/face_stream.h"
 #include "tools/app/commands/head_options.h"
 #include "tools/app/commands/page_sound.h"
+#include "tools/app/commands/report.h"
 #include "tools/app/commands/script_options.h"
 #include "tools/app/commands/shown_heads.h"
 #include "tools/formats/common/text.h"
@@ -132,38 +132,40 @@ Result<int> run(const ViewOptions& options) {
   const Result<std::string> html = viewer::make_page(page);
   if (!html) return html.error();
   if (auto written = write_file(options.output, *html); !written) return written.error();
-  say(name_of_output(options.output) + ": " + megabytes(double(html->size())) +
-      (page.sound ? ", with sound" : ", silent") + "; open it in a browser");
+  report_output(
+      options.output,
+      megabytes(double(html->size())) + (page.sound ? ", with sound" : ", silent") +
+          "; open it in a browser",
+      {{"bytes", html->size()}, {"sound", page.sound.has_value()}, {"heads", heads.size()}});
   warn_of_lengths(page, options, seconds);
   warn_of_size(page, html->size(), seconds);
   return kOk;
 }
 
-void add_options(CLI::App& app, ViewOptions& options) {
-  app.add_option("input", options.first,
-                 "FAP text, FBA stream, a container with a face, or a table of curves")
+void add_options(OptionTable& cli, ViewOptions& options) {
+  cli.add("input", options.first,
+          "FAP text, FBA stream, a container with a face, or a table of curves")
       ->required();
-  app.add_option("second", options.second, "Another one to compare it with");
-  add_output(
-      app.add_option("-o,--output", options.output, "HTML file to write, - for standard output"),
-      {".html", ".htm"})
+  cli.add("second", options.second, "Another clip to compare with");
+  cli.add("-o,--output", options.output, "HTML file to write, - for standard output")
+      ->output(".html .htm")
       ->required();
-  app.add_option("--audio", options.audio,
-                 "Sound in any format that FFmpeg reads; default: that of a container. AAC and "
-                 "Opus stay as they are unless one of the options below is given");
-  app.add_option("--script", options.script,
-                 "Phoneme script (of any format) to show with the curves; default: that which a "
-                 "container carries");
-  add_script_options(app, options.reading.reading, options.reading.language);
-  add_sound_options(app, options.sound, false);
-  add_length_option(app, options.length);
-  add_heads_options(app, options.heads.heads, options.heads.rest);
+  cli.add("--audio", options.audio,
+          "Sound in any format that FFmpeg reads; default: that of the container. AAC and "
+          "Opus are kept unless one of the options below is given");
+  cli.add("--script", options.script,
+          "Phoneme script (of any format) to show with the curves; default: that in the "
+          "container");
+  add_script_options(cli, options.reading.reading, options.reading.language);
+  add_sound_options(cli, options.sound, false);
+  add_length_option(cli, options.length);
+  add_heads_options(cli, options.heads.heads, options.heads.rest);
 }
 
 }  // namespace
 
 const Command kView{
-    "view", "A page that shows the talking head: one HTML file for any browser",
+    "view", "Write an HTML page that shows the talking head in any browser",
     "  animeme view talk.mp4 -o talk.html\n"
     "  animeme view talk.fap --audio voice.wav --script voice.TextGrid --head man "
     "-o talk.html\n"

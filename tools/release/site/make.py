@@ -10,7 +10,6 @@ import re
 import shutil
 import subprocess
 import sys
-import textwrap
 
 import yaml
 
@@ -84,31 +83,19 @@ def title_of(source, page):
 
 
 def say(program, *words):
-    return subprocess.run([program, *words], check=True, capture_output=True, text=True).stdout
-
-
-def narrow(text, width=96, column=30):
-    """Help in lines that a page has room for: what is said of an option stays in its column."""
-    lines = []
-    for line in text.rstrip().split("\n"):
-        head, rest = line[:column], line[column:]
-        if len(line) <= width or (head.strip() and not head.endswith(" ")):
-            lines.append(line)
-            continue
-        first, *more = textwrap.wrap(rest, width - column, break_long_words=False, break_on_hyphens=False)
-        lines += [head + first] + [" " * column + part for part in more]
-    return "\n".join(lines)
+    wide = {**os.environ, "COLUMNS": "96"}  # that a page has room for
+    return subprocess.run([program, *words], check=True, capture_output=True, text=True, env=wide).stdout
 
 
 def command_pages(stage, program):
     """What each command says of itself."""
-    table = re.search(r"Subcommands:\n(.*?)\n\n", say(program, "--help"), re.S).group(1)
-    commands = re.findall(r"^  (\w+) +(.*)$", table, re.M)
+    table = re.search(r"Commands:\n(.*?)\n\n", say(program, "--help"), re.S).group(1)
+    commands = re.findall(r"^  (\w+) +(.*)$", re.sub(r"\n   +", " ", table), re.M)
     text = "# Commands\n\nWhat `animeme COMMAND --help` says.\n\n| command | |\n|---|---|\n"
     nav = ["commands/index.md"]
     for name, about in commands:
         text += f"| [`{name}`]({name}.md) | {about} |\n"
-        words = narrow(say(program, name, "--help"))
+        words = say(program, name, "--help").rstrip()
         stage.write(f"commands/{name}.md", f"# animeme {name}\n\n```text\n{words}\n```\n")
         nav.append({name: f"commands/{name}.md"})
     stage.write("commands/index.md", text)
