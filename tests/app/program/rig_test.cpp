@@ -147,7 +147,7 @@ TEST_F(Rig, FapsBecomeShapesWhenWanted) {
   const std::string model = train("g.dam", {"--controls", "gloss"});
   const auto none = animeme({"speak", "--text", "Papa", "--model", model, "-o", dir_ / "g.json"});
   EXPECT_EQ(none.exit_code, 3);
-  EXPECT_THAT(none.err, HasSubstr("neither FAPs nor shapes of ARKit; write them as curves"));
+  EXPECT_THAT(none.err, HasSubstr("neither FAPs nor ARKit blend shapes; write them as curves"));
 }
 
 TEST_F(Rig, LittleMaterialIsAddedToABase) {

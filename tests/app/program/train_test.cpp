@@ -152,7 +152,7 @@ TEST_F(TrainOdd, LagsAreFoundAndTakenOff) {
   const auto late = train(briefly({folder(), "-o", dir_ / "m.dam"}));
   EXPECT_THAT(late.err, HasSubstr(" ms after the sound"));
   const auto text = train(briefly({folder(), "-o", dir_ / "m.dam", "--lag", "auto"}));
-  EXPECT_THAT(text.err, AllOf(HasSubstr("scripts are shifted by +1"),
+  EXPECT_THAT(text.err, AllOf(HasSubstr("scripts were shifted by +1"),
                               HasSubstr("sound and motion are synchronous")));
   const json given = train_json(briefly({folder(), "-o", dir_ / "m.dam", "--lag", "160"}));
   EXPECT_NEAR(given["alignment"]["lag_ms"].get<double>(), 0, 15);

@@ -23,7 +23,7 @@ Task read_task(std::string_view message) {
   Task task;
   task.row.line = json["line"].get<std::int64_t>();
   for (const Json& one : json["values"]) task.row.values.emplace_back(one[0].text(), one[1].text());
-  task.known = json["known"].get<bool>();
+  task.known = json["known"].text();
   task.known_bytes = json["bytes"].get<std::uint64_t>();
   return task;
 }

@@ -139,7 +139,7 @@ std::string training_text(const std::string& output, const dam::Model& model,
                  summary.occurrences, model.controls.size());
   if (summary.modes > 0) text += format(", %zu modes", summary.modes);
   text += "\n" + steps_text(summary);
-  if (summary.ridge > 0) text += format("ridges times %g\n", summary.ridge);
+  if (summary.ridge > 0) text += format("ridge factor %g\n", summary.ridge);
   text += explained_text(summary) + lag_text(summary.alignment);
   return text + output + format(": trained in %.1f s", summary.seconds);
 }
