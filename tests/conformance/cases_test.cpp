@@ -132,7 +132,7 @@ TEST(Describe, FindsADamageThatIsNone) {
   made.info.errors = {"syntax"};
   const auto result = describe(made);
   ASSERT_FALSE(result);
-  EXPECT_THAT(result.error().message, testing::HasSubstr("finds no error"));
+  EXPECT_THAT(result.error().message, testing::HasSubstr("reports no error"));
 }
 
 TEST(Describe, FindsAnErrorOfAnotherKind) {

@@ -158,11 +158,11 @@ TEST_F(MuxFailure, CodecsThatAFormatDoesNotTake) {
   };
   const MuxOptions opus{.audio = {.codec = AudioCodec::opus}};
   refused("a.ts", input_, opus, "a .ts file does not support opus; code the sound as aac");
-  refused("a.m4a", {.audio = &sound_}, opus, "takes no opus");
+  refused("a.m4a", {.audio = &sound_}, opus, "does not support opus");
   refused("a.opus", {.audio = &sound_}, {}, "does not support aac; code the sound as opus");
-  refused("a.webm", {.audio = &sound_}, {}, "takes no aac");
+  refused("a.webm", {.audio = &sound_}, {}, "does not support aac");
   refused("a.webm", input_, opus, "can only contain sound");
-  refused("a.ts", {.face = &face_, .encoded = &*coded}, {}, "takes no opus");
+  refused("a.ts", {.face = &face_, .encoded = &*coded}, {}, "does not support opus");
   refused("a.mp4", {.face = &face_, .encoded = &*coded}, {.systems = true}, "needs AAC");
   refused("a.mkv", input_, {.fragmented = true}, "only an mp4");
   refused("a.mkv", input_, {.shared_seconds = 0.4}, ".ts files only");

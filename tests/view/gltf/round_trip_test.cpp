@@ -282,7 +282,7 @@ TEST(RoundTrip, HeadsThatLookElsewhereAreTurned) {
     auto source = read_head(other);
     ASSERT_TRUE(source);
     ASSERT_EQ(source->notes.size(), 1u);
-    EXPECT_NE(source->notes[0].find("did not face +Z"), std::string::npos);
+    EXPECT_NE(source->notes[0].find("does not look along +Z"), std::string::npos);
     const Actor copy = assembled(std::move(*source));
     EXPECT_LT(compare(copy, shapes_of_arkit(), Part::skin).root_mean_square, 0.25);
     EXPECT_LT(
