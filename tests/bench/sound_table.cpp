@@ -1,5 +1,5 @@
 // Compares speed and sound quality of the two searches of FFmpeg's AAC encoder: the table of
-// tools/formats/media/README.md.
+// tools/formats/media/containers.md, section 5.1.
 //
 //     build/release/bin/sound_table [SOUND ...]
 //

@@ -56,7 +56,7 @@ struct EncodedAudio {
 };
 
 /// Search of the AAC encoder for scale factors. Speed and quality of both:
-/// tools/formats/media/README.md, "AAC encoder".
+/// tools/formats/media/containers.md, section 5.1.
 enum class AacSearch : std::uint8_t {
   fast,      ///< one pass
   two_loop,  ///< FFmpeg's default: several passes per frame
