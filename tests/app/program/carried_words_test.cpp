@@ -97,7 +97,7 @@ TEST_P(CarriedWords, ComeOutAsTheScriptThatWentIn) {
   }
   const auto none = animeme({"demux", bare_, "--script", dir_ / "none.tsv"});
   EXPECT_EQ(none.exit_code, 3);
-  EXPECT_THAT(none.err, HasSubstr("carries no words and phones"));
+  EXPECT_THAT(none.err, HasSubstr("there are no words and phones"));
   // A script is a script, wherever it lies.
   succeeds({"speak", "--script", talk_, "-o", dir_ / "again.fap"});
 }

@@ -288,7 +288,7 @@ TEST(Corpus, WhatCannotBe) {
   EXPECT_FALSE(fs::exists(dir / "me/utterances.tsv"));
   const auto which = run({"--neutral", "0"});
   EXPECT_EQ(which.exit_code, 2);
-  EXPECT_THAT(which.err, HasSubstr("select one with --neutral-from"));
+  EXPECT_THAT(which.err, HasSubstr("name it with --neutral-from"));
 }
 
 }  // namespace corpus_test

@@ -301,11 +301,11 @@ TEST_F(CrossmapCommand, ProjectsSayWhereTheyAreWrong) {
     EXPECT_THAT(result.err, HasSubstr(text));
   };
   says("inputs = [\n", "p.toml:");
-  says("inputs = [\"a.csv\"]\n[capture]\nrates = 25\n", "p.toml:3:9: [capture] rates is no word");
+  says("inputs = [\"a.csv\"]\n[capture]\nrates = 25\n", "p.toml:3:9: [capture] rates is not a key");
   says("inputs = [\"a.csv\", 3]\n", "p.toml:1:20: inputs is a list of texts");
   says("[fit]\nconvex = 1\n", "p.toml:2:10: [fit] convex is true or false");
   says("[keys]\ncount = 2000\n", "p.toml:2:9: [keys] count is a number from 0 to 200");
-  says("[keys]\nnamed = [{name = \"M\", at = 3}]\n", "[keys.named] at is no word");
+  says("[keys]\nnamed = [{name = \"M\", at = 3}]\n", "[keys.named] at is not a key");
   says("[capture.regions]\nlips = {points = [\"a\"], weight = -1}\n", "weight is a number");
   says("", "no recording");
 }

@@ -131,7 +131,7 @@ TEST(Plot, UnknownFapsAreNamed) {
   for (const char* name : {"open_jaws", "2", "69", "-3", "3x", "5-3", "3-", "3-70"}) {
     const auto out = animeme({"plot", dir / "a.fap", "--faps=" + std::string(name), "-o", "-"});
     EXPECT_EQ(out.exit_code, 2) << name;
-    EXPECT_THAT(out.err, HasSubstr("is no FAP")) << name;
+    EXPECT_THAT(out.err, HasSubstr("is not a FAP")) << name;
   }
 }
 

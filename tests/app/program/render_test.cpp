@@ -133,12 +133,12 @@ TEST(Render, SaysWhatIsWrong) {
   usage({"render", "-o", out}, "give a file to show");
   usage({"render", clip(), "--shapes", "visemes", "-o", out}, "give a file to show");
   usage({"render", "--shapes", "vowels", "-o", out}, "--shapes: vowels not in {visemes,");
-  usage({"render", clip(), "--size", "640", "-o", out}, "--size: WIDTHxHEIGHT");
-  usage({"render", clip(), "--size", "0x4", "-o", out}, "--size: WIDTHxHEIGHT");
-  usage({"render", clip(), "--sheet", "4", "-o", out}, "--sheet: COLUMNSxROWS");
+  usage({"render", clip(), "--size", "640", "-o", out}, "--size: write WIDTHxHEIGHT");
+  usage({"render", clip(), "--size", "0x4", "-o", out}, "--size: write WIDTHxHEIGHT");
+  usage({"render", clip(), "--sheet", "4", "-o", out}, "--sheet: write COLUMNSxROWS");
   usage({"render", clip(), "--sheet", "100x4", "-o", out}, "larger than 8192 pixels");
   usage({"render", clip(), "--head", "dragon", "-o", out}, "--head is woman, man or child");
-  usage({"render", clip(), "--view", "behind", "-o", out}, "--view: front");
+  usage({"render", clip(), "--view", "behind", "-o", out}, "--view: write front");
   usage({"render", clip(), "-o", dir / "out.gif"}, "must end in .png");
   usage({"render", clip(), "--frame", "1", "--sheet", "2x2", "-o", out}, "--sheet");
   const auto input = [&](const std::vector<std::string>& arguments, const char* text) {

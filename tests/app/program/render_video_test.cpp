@@ -67,7 +67,7 @@ TEST(RenderVideo, PicturesAndSoundOfTheClip) {
                               "97x65", "-o", dir / name});
     if (lacks_encoder(out)) GTEST_SKIP() << out.err;
     ASSERT_EQ(out.exit_code, 0) << out.err;
-    EXPECT_THAT(out.err, HasSubstr("10 pictures, 96x64, 10 a second"));
+    EXPECT_THAT(out.err, HasSubstr("10 pictures, 96x64, 10 per second"));
     const json info = info_of(dir / name);
     EXPECT_EQ(track(info, "video")["codec"], codec);
     EXPECT_EQ(track(info, "video")["width"], 96);
@@ -128,7 +128,7 @@ TEST(RenderVideo, WhatCannotBeIsSaid) {
   EXPECT_EQ(animeme({"render", dir / "talk.fap", "-o", dir / "a.avi"}).exit_code, 2);
   const auto curve = animeme({"render", dir / "talk.fap", "--curves", "jaw", "-o", dir / "a.mp4"});
   EXPECT_EQ(curve.exit_code, 2);
-  EXPECT_THAT(curve.err, HasSubstr("jaw is no FAP"));
+  EXPECT_THAT(curve.err, HasSubstr("jaw is not a FAP"));
   const auto preview = animeme({"mux", dir / "talk.fap", dir / "voice.wav", "-o", dir / "talk.mp4",
                                 "--preview", dir / "talk.gif"});
   EXPECT_EQ(preview.exit_code, 2);

@@ -182,7 +182,8 @@ TEST(Speak, FfmpegConvertsTheSound) {
   const TempDir dir;
   ASSERT_EQ(animeme({"speak", "--text", "Hello", "-o", dir / "a.mp4"}).exit_code, 0);
   for (const std::vector<std::string>& conversion :
-       {std::vector<std::string>{"-b:a", "40k", dir / "out.webm"}, {"-c", "copy", dir / "out.mkv"}}) {
+       {std::vector<std::string>{"-b:a", "40k", dir / "out.webm"},
+        {"-c", "copy", dir / "out.mkv"}}) {
     std::vector<std::string> command = {"ffmpeg", "-nostdin", "-v", "warning", "-i", dir / "a.mp4"};
     command.insert(command.end(), conversion.begin(), conversion.end());
     const auto converted = test::run_command(command);
