@@ -17,8 +17,8 @@ struct OptionTable;
 /// function that takes them. It returns the exit code, or an error that main() prints (exit code
 /// 3).
 struct Action {
-  std::shared_ptr<void> options;
-  Result<int> (*run)(void* options) = nullptr;
+  std::shared_ptr<void> options;                ///< of the type that `run` expects
+  Result<int> (*run)(void* options) = nullptr;  ///< runs the command with them
 };
 
 /// Command::add: creates the options, adds them by add_options(cli, options), and runs

@@ -40,6 +40,8 @@ struct Variable {
   using Parse = std::string (*)(const std::string& text, void* into);
 
   Variable() = default;
+  /// @{
+  /// A variable of this type, or one of any type with the function that reads it.
   Variable(bool& v) : address(&v), kind(Kind::flag) {}
   Variable(std::optional<bool>& v) : address(&v), kind(Kind::optional_flag) {}
   Variable(int& v) : address(&v), kind(Kind::integer) {}
@@ -55,12 +57,15 @@ struct Variable {
   Variable(Parse by, void* into) : address(into), parse(by), kind(Kind::parsed) {}
   Variable(std::vector<std::string>& v) : address(&v), kind(Kind::texts) {}
   Variable(std::vector<double>& v) : address(&v), kind(Kind::numbers) {}
+  /// @}
 
-  void* address = nullptr;
-  Parse parse = nullptr;
-  Kind kind = Kind::none;
+  void* address = nullptr;  ///< of the variable
+  Parse parse = nullptr;    ///< for Kind::parsed
+  Kind kind = Kind::none;   ///< its type
 
+  /// The option takes no value.
   bool is_flag() const { return kind <= Kind::optional_flag; }
+  /// The option takes several values.
   bool is_list() const { return kind >= Kind::texts; }
 };
 
@@ -85,6 +90,7 @@ using Problem = std::string (*)(const std::string& value);
 
 /// One option, or one positional argument. Members that return the option set it up.
 struct Option {
+  /// As OptionTable::add().
   Option(const char* names, Variable variable, const char* help);
 
   Option* required();                          ///< The command does not run without it.
@@ -119,6 +125,7 @@ struct Option {
   std::string type_text() const;
   /// What is wrong with a value, as a sentence; empty: nothing.
   std::string problem_with(const std::string& text) const;
+  /// It was on the command line.
   bool given() const { return !values.empty(); }
 
   /// A name as it is typed.
@@ -127,30 +134,37 @@ struct Option {
     bool negates = false;  ///< it clears the flag
     bool hidden = false;   ///< it works, but is not shown
   };
-  std::vector<Name> names;               ///< with dashes
-  std::string argument;                  ///< name as an argument without dashes; empty: it is none
-  Variable variable;                     ///< what it sets
-  std::string help;                      ///< what it does
-  std::string type_name, shown, preset;  ///< type(), value(), show_default()
-  std::string group;                     ///< in_group()
-  std::vector<std::string> choices;      ///< one_of()
-  std::string range;                     ///< between() and others, as help prints it: ">0"
-  double low = 0, high = 0;              ///< the range
-  Problem problem = nullptr;             ///< check()
-  bool is_required = false, splits_at_commas = false, is_one_at_a_time = false;
-  int most = 0;  ///< at_most(); 0: any number
-  std::vector<std::string> needed, excluded;
-  bool* was_given = nullptr;  ///< sets()
-  OutputKind output_kind = OutputKind::none;
-  std::vector<std::string> extensions;  ///< output()
-  std::vector<std::string> values;      ///< on the command line that was parsed
+  std::vector<Name> names;            ///< with dashes
+  std::string argument;               ///< name as an argument without dashes; empty: it is none
+  Variable variable;                  ///< what it sets
+  std::string help;                   ///< what it does
+  std::string type_name;              ///< type()
+  std::string shown;                  ///< value()
+  std::string preset;                 ///< show_default()
+  std::string group;                  ///< in_group()
+  std::vector<std::string> choices;   ///< one_of()
+  std::string range;                  ///< between() and others, as help prints it: ">0"
+  double low = 0;                     ///< start of the range
+  double high = 0;                    ///< end of the range
+  Problem problem = nullptr;          ///< check()
+  bool is_required = false;           ///< required()
+  bool splits_at_commas = false;      ///< at_commas()
+  bool is_one_at_a_time = false;      ///< one_at_a_time()
+  int most = 0;                       ///< at_most(); 0: any number
+  std::vector<std::string> needed;    ///< needs()
+  std::vector<std::string> excluded;  ///< excludes()
+  bool* was_given = nullptr;          ///< sets()
+  OutputKind output_kind = OutputKind::none;  ///< output()
+  std::vector<std::string> extensions;        ///< output()
+  std::vector<std::string> values;            ///< on the command line that was parsed
 };
 
 /// The options of a command, or those of the program with all its commands.
 struct OptionTable {
+  /// `called`: name; `does`: summary; `ends_with`: footer.
   OptionTable(const char* called, const char* does, std::string ends_with);
   ~OptionTable();
-  OptionTable(OptionTable&&) noexcept;
+  OptionTable(OptionTable&&) noexcept;  ///< options keep their addresses
 
   /// Adds an option. `names`: separated by commas. Without dashes ("input") it is a positional
   /// argument, "input,--input" is both. "!--no-x" clears a flag. A name after "." is not shown.

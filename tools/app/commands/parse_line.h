@@ -13,8 +13,8 @@ namespace animeme::tools {
 struct ParsedLine {
   /// What is to be done.
   enum class Action : unsigned char { run, help, help_all, version, fail };
-  Action action = Action::run;
-  std::string problem;  ///< a sentence, if the line is wrong
+  Action action = Action::run;  ///< for the command or the program
+  std::string problem;          ///< a sentence, if the line is wrong
 };
 
 /// Parses the words behind the program's name, sets the variables of the options that were given,

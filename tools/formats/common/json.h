@@ -34,9 +34,11 @@ concept JsonList =
 /// the output. NaN and infinity become null in the output.
 class Json {
  public:
-  struct Member;
+  struct Member;  ///< a name and a value of an object
 
   Json() noexcept = default;  ///< null
+  /// @{
+  /// A value of the type that the argument has.
   Json(std::nullptr_t) noexcept {}
   Json(bool value) noexcept;
   Json(int value) noexcept : Json(static_cast<long long>(value)) {}
@@ -49,23 +51,26 @@ class Json {
   Json(const char* text);
   Json(std::string text);
   Json(std::string_view text);
+  /// @}
   template <class T>
   Json(const T* pointer) = delete;  // it would be a bool
   /// An object if every element is a pair of a string and a value; an array otherwise.
   Json(std::initializer_list<Json> list);
+  /// An array of the elements of a container.
   template <JsonList List>
   Json(const List& list) : Json(array()) {
     for (const auto& one : list) push_back(one);
   }
-  Json(const Json& other);
+  Json(const Json& other);  ///< a deep copy
+  /// Leaves null behind.
   Json(Json&& other) noexcept : kind_(other.kind_), payload_(other.payload_) {
     other.kind_ = Kind::null;
   }
   Json& operator=(Json other) noexcept;
   ~Json();
 
-  static Json array(std::initializer_list<Json> list = {});
-  static Json object();
+  static Json array(std::initializer_list<Json> list = {});  ///< an array, also of pairs
+  static Json object();                                      ///< an empty object
 
   /// Settings of parse(). A lookup in a sorted object takes logarithmic time.
   struct Reading {
@@ -75,8 +80,11 @@ class Json {
   /// Parses a text. The last member of a repeated name counts. Errors: syntax (where.column is the
   /// offset of the byte, from 1), out_of_range (nested too deep).
   static Result<Json> parse(std::string_view text) { return parse(text, Reading()); }
+  /// Likewise, with settings.
   static Result<Json> parse(std::string_view text, const Reading& reading);
 
+  /// @{
+  /// The kind of the value.
   bool is_null() const { return kind_ == Kind::null; }
   bool is_boolean() const { return kind_ == Kind::boolean; }
   bool is_number() const { return kind_ >= Kind::integer && kind_ <= Kind::real; }
@@ -87,15 +95,18 @@ class Json {
   bool is_array() const { return kind_ == Kind::array; }
   bool is_object() const { return kind_ == Kind::object; }
   bool is_structured() const { return kind_ >= Kind::array; }  ///< an array or an object
+  /// @}
 
   /// The value as bool, int, long, unsigned long, double, std::string or std::vector<std::string>.
   /// Converts between numbers; throws std::runtime_error for a value of another kind.
   template <class T>
   T get() const;
   const std::string& text() const;  ///< a string without a copy
+  /// Likewise, to be changed in place.
   std::string& text() { return const_cast<std::string&>(std::as_const(*this).text()); }
 
   std::size_t size() const;  ///< number of entries or members; null: 0, scalars: 1
+  /// True if size() is 0.
   bool empty() const { return size() == 0; }
 
   /// The member `key`, which is added if missing; null becomes an object. The reference is valid
@@ -103,6 +114,7 @@ class Json {
   Json& operator[](std::string_view key);
   const Json& operator[](std::string_view key) const;  ///< null if missing
   const Json* find(std::string_view key) const;        ///< nullptr if missing
+  /// True if there is a member of that name.
   bool contains(std::string_view key) const { return find(key) != nullptr; }
   std::span<const Member> items() const;  ///< members of an object; empty for other values
   Json erase(std::string_view key);       ///< returns the removed member; null if missing
@@ -112,18 +124,22 @@ class Json {
   /// An entry of an array, from 0; undefined beyond its end.
   Json& operator[](std::size_t index);
   const Json& operator[](std::size_t index) const;
+  /// @{
+  /// The first and the last entry, and the entries of an array; begin() equals end() for other
+  /// values.
   Json& front() { return (*this)[std::size_t(0)]; }
   const Json& front() const { return (*this)[std::size_t(0)]; }
   Json& back() { return (*this)[size() - 1]; }
   const Json& back() const { return (*this)[size() - 1]; }
-  const Json* begin() const;  ///< equals end() for a value that is no array
+  const Json* begin() const;
   const Json* end() const;
   Json* begin() { return const_cast<Json*>(std::as_const(*this).begin()); }
   Json* end() { return const_cast<Json*>(std::as_const(*this).end()); }
+  /// @}
   void push_back(Json value);  ///< null becomes an array
 
   /// Formats the value: `indent` spaces a level, or a single line without spaces (-1). `ascii`
-  /// writes other characters as \uXXXX.
+  /// writes other characters as escapes of four digits.
   std::string dump(int indent = -1, bool ascii = false) const;
 
   /// Compares values: 1 equals 1.0, and the order of members matters.
@@ -150,11 +166,13 @@ class Json {
   Payload payload_{};
 };
 
+/// A member of an object.
 struct Json::Member {
-  std::string key;
-  Json value;
+  std::string key;  ///< its name
+  Json value;       ///< its value
 };
 
+/// @cond
 template <>
 bool Json::get() const;
 template <>
@@ -169,6 +187,7 @@ template <>
 std::string Json::get() const;
 template <>
 std::vector<std::string> Json::get() const;
+/// @endcond
 
 /// An array with the result of `entry`, a function or a member, for each element of a list.
 template <class List, class Entry>

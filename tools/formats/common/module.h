@@ -28,6 +28,8 @@ struct Module {
   const char* packages;  ///< the Debian 12 packages that have those libraries and their data
 };
 
+/// @{
+/// The modules that exist.
 inline constexpr Module kFfmpegModule = {"animeme_ffmpeg.so", "sound or video", "FFmpeg",
                                          "libavformat59 libswscale6"};
 inline constexpr Module kEspeakModule = {"animeme_espeak.so", "text to speech", "espeak-ng",
@@ -45,6 +47,7 @@ inline constexpr Module kWebrtcModule = {
     "gstreamer1.0-plugins-bad gstreamer1.0-nice"};
 inline constexpr Module kMpiModule = {"animeme_mpi.so", "training in many processes", "OpenMPI",
                                       "libopenmpi3 openmpi-bin"};
+/// @}
 
 /// All of them.
 inline constexpr Module kModules[] = {kFfmpegModule, kEspeakModule, kSphinxModule, kTextModule,
@@ -78,6 +81,7 @@ inline void* load_module(const Module& module, int flags, std::string& problem) 
 /// The function that every module exports: returns its table, or nullptr if the program is of
 /// another version.
 using ModuleEntry = const void* (*)(const char* version, std::size_t size);
+/// The name of that function.
 inline constexpr const char* kModuleEntry = "animeme_module";
 
 /// Loads a module and returns its table of functions. Errors: unsupported; the message names the

@@ -20,7 +20,7 @@ endif()
 set(DOXYGEN_STRIP_FROM_PATH ${PROJECT_SOURCE_DIR})
 set(DOXYGEN_JAVADOC_AUTOBRIEF YES)
 # What is not installed, and what is data.
-set(DOXYGEN_EXCLUDE_PATTERNS */detail/*.h */maths/*.h */kinds/*.h */rig/*.h *_internal.h */conformance/cases/*)
+set(DOXYGEN_EXCLUDE_PATTERNS */detail/*.h */maths/*.h */kinds/*.h */rig/*.h */app/late/*.h *_internal.h */conformance/cases/*)
 # Operators say all by their names.
 set(DOXYGEN_EXCLUDE_SYMBOLS *operator*)
 set(DOXYGEN_DISTRIBUTE_GROUP_DOC YES)

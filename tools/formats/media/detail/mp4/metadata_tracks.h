@@ -1,6 +1,6 @@
-// Faces and texts of an mp4 as timed metadata tracks. libavformat writes them as MPEG-4 video and as
-// subtitles; converters try to decode the former, and the ffmpeg program cannot copy the latter to
-// Matroska. Source: tools/formats/media/containers.md, section 1.6.
+// Faces and texts of an mp4 as timed metadata tracks. libavformat writes them as MPEG-4 video and
+// as subtitles; converters try to decode the former, and the ffmpeg program cannot copy the latter
+// to Matroska. Source: tools/formats/media/containers.md, section 1.6.
 #pragma once
 
 #include <cstdint>
