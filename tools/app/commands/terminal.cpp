@@ -10,6 +10,7 @@
 
 #include "tools/app/commands/command.h"
 #include "tools/app/commands/report.h"
+#include "tools/formats/common/code_name.h"
 #include "tools/formats/files/output_file.h"
 
 namespace animeme::tools {
@@ -19,32 +20,6 @@ namespace {
 bool quiet_setting = false, verbose_setting = false, json_setting = false;
 std::string current_command;
 Json outputs = Json::array(), warnings = Json::array();  // of the command that runs
-
-const char* name_of(Code code) {
-  switch (code) {
-    case Code::invalid_argument:
-      return "invalid_argument";
-    case Code::syntax:
-      return "syntax";
-    case Code::out_of_range:
-      return "out_of_range";
-    case Code::truncated:
-      return "truncated";
-    case Code::need_data:
-      return "need_data";
-    case Code::end_of_stream:
-      return "end_of_stream";
-    case Code::unsupported:
-      return "unsupported";
-    case Code::not_found:
-      return "not_found";
-    case Code::io:
-      return "io";
-    case Code::internal:
-      break;
-  }
-  return "internal";
-}
 
 // One object, so that a script reads one thing whatever happens.
 void print_json(const char* code, const std::string& message, const Position& where) {
@@ -108,7 +83,7 @@ Log terminal_log() { return {say, warn}; }
 int report_error(const Error& error) {
   // In one piece, as other processes may write to the same place.
   std::cerr << "animeme: error: " + error.describe() + "\n";
-  print_json(name_of(error.code), error.message, error.where);
+  print_json(code_name(error.code), error.message, error.where);
   return error.code == Code::internal ? kInternal : kBadInput;
 }
 

@@ -1,35 +1,10 @@
 // Failures as exceptions of Python, warnings, and Ctrl-C in long calls.
 #include "tools/bindings/python/python_internal.h"
+#include "tools/formats/common/code_name.h"
 
 namespace animeme::python {
 
 namespace {
-
-const char* name_of(Code code) {
-  switch (code) {
-    case Code::invalid_argument:
-      return "invalid_argument";
-    case Code::syntax:
-      return "syntax";
-    case Code::out_of_range:
-      return "out_of_range";
-    case Code::truncated:
-      return "truncated";
-    case Code::need_data:
-      return "need_data";
-    case Code::end_of_stream:
-      return "end_of_stream";
-    case Code::unsupported:
-      return "unsupported";
-    case Code::not_found:
-      return "not_found";
-    case Code::io:
-      return "io";
-    case Code::internal:
-      break;
-  }
-  return "internal";
-}
 
 py::object type_named(const char* name) { return py::module_::import("animeme._types").attr(name); }
 
@@ -51,8 +26,8 @@ void raise(const Error& error) {
       at.file.empty() ? py::object(py::none()) : readable(at.file), known(at.line > 0, at.line),
       known(at.column > 0, at.column), known(at.bit >= 0, at.bit));
   const py::object type = type_named("Error");
-  const py::object raised =
-      type(readable(error.describe()), name_of(error.code), readable(error.message), position);
+  const py::object raised = type(readable(error.describe()), tools::code_name(error.code),
+                                 readable(error.message), position);
   PyErr_SetObject(type.ptr(), raised.ptr());
   throw py::error_already_set();
 }
