@@ -5,7 +5,7 @@
 
 #include "dam/script/phones.h"
 #include "dam/script/script_readers_internal.h"
-#include "dam/script/script_timeline_internal.h"
+#include "dam/script/script_values_internal.h"
 #include "dam/script/timings.h"
 
 namespace animeme::dam {

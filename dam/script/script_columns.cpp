@@ -3,7 +3,7 @@
 #include <set>
 
 #include "dam/script/script_readers_internal.h"
-#include "dam/script/script_timeline_internal.h"
+#include "dam/script/script_values_internal.h"
 #include "dam/script/table_text_internal.h"
 
 namespace animeme::dam {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "dam/script/script_readers_internal.h"
-#include "dam/script/script_timeline_internal.h"
+#include "dam/script/script_values_internal.h"
 
 namespace animeme::dam {
 namespace {

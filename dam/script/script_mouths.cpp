@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "dam/script/script_readers_internal.h"
-#include "dam/script/script_timeline_internal.h"
+#include "dam/script/script_values_internal.h"
 #include "dam/script/viseme_phones.h"
 
 namespace animeme::dam {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "dam/script/script_readers_internal.h"
-#include "dam/script/script_timeline_internal.h"
+#include "dam/script/script_values_internal.h"
 #include "dam/script/table_text_internal.h"
 
 namespace animeme::dam {

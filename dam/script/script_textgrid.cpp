@@ -4,7 +4,7 @@
 #include <span>
 
 #include "dam/script/script_readers_internal.h"
-#include "dam/script/script_timeline_internal.h"
+#include "dam/script/script_values_internal.h"
 #include "dam/script/table_text_internal.h"
 #include "dam/script/textgrid.h"
 

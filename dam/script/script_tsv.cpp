@@ -2,7 +2,7 @@
 #include <optional>
 
 #include "dam/script/script_readers_internal.h"
-#include "dam/script/script_timeline_internal.h"
+#include "dam/script/script_values_internal.h"
 
 namespace animeme::dam {
 namespace {

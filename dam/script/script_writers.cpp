@@ -5,7 +5,7 @@
 
 #include "dam/script/script.h"
 #include "dam/script/script_text_internal.h"
-#include "dam/script/script_timeline_internal.h"
+#include "dam/script/script_values_internal.h"
 
 namespace animeme::dam {
 namespace {

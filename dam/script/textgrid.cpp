@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dam/script/script_timeline_internal.h"
+#include "dam/script/script_values_internal.h"
 #include "fap/detail/real_text.h"
 
 namespace animeme::dam {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "dam/script/script_text_internal.h"
-#include "dam/script/script_timeline_internal.h"
+#include "dam/script/script_values_internal.h"
 #include "tools/formats/scripts/detail/json_script.h"
 
 namespace animeme::scripts {

@@ -1,4 +1,4 @@
-// What the readers of scripts share: numbers and messages.
+// Times and labels in the text and the messages of scripts.
 #pragma once
 
 #include <cstdint>
