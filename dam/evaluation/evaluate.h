@@ -52,7 +52,7 @@ struct EvaluateOptions {
 /// A recording and the synthesised motion of its script.
 struct SentencePair {
   Utterance recorded;  ///< script and measured signal
-  Signal made;         ///< same rate and number of frames; channels are found by name
+  Signal synthesised;  ///< same rate and number of frames; channels are found by name
 };
 
 /// Result of score(). Scored are measured frames within 0.2 s of speech, of the FAPs 3 to 13 and 51

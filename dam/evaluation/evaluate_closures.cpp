@@ -143,7 +143,7 @@ void score_closures(const Layout& layout, const AllSeries& all, const ScoreOptio
   for (std::size_t i = 0; i + 1 < std::size(kLengths); ++i)
     counts.durations.push_back({kLengths[i], kLengths[i + 1], 0, 0, 0});
   for (const PairSeries& pair : all) {
-    const Gap made{pair.made[gap], options.closed_gap};
+    const Gap made{pair.synthesised[gap], options.closed_gap};
     const Gap recorded{pair.recorded[gap], options.closed_gap};
     const auto& phones = pair.script().phones;
     for (std::size_t i = 0; i < phones.size(); ++i)

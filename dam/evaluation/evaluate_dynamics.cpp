@@ -21,7 +21,7 @@ DynamicsScore score_series(const Layout& layout, const AllSeries& all, std::size
   Comparison sums[4];  // by order
   std::vector<double> made, recorded;
   for (const PairSeries& pair : all) {
-    const auto& a = pair.made[series];
+    const auto& a = pair.synthesised[series];
     const auto& b = pair.recorded[series];
     for (const FrameRun& run : frame_runs(pair.speech)) {
       made.insert(made.end(), a.begin() + std::ptrdiff_t(run.begin),

@@ -30,7 +30,7 @@ RegionSums sum_region(const Layout& layout, const AllSeries& all,
     for (std::size_t i = 0; i < pair.frames(); ++i) {
       if (!(pair.*mask)[i]) continue;
       for (std::size_t s = 0; s < layout.series(); ++s)
-        sums.series[s].add(pair.made[s][i], pair.recorded[s][i]);
+        sums.series[s].add(pair.synthesised[s][i], pair.recorded[s][i]);
       add_still(layout, pair, i, sums);
       add_frame(layout, pair, i, own);
     }
@@ -86,7 +86,7 @@ void add_frame(const Layout& layout, const PairSeries& pair, std::size_t frame, 
   for (std::size_t c = 0, k = 0; c < layout.controls.size(); ++c) {
     if (!layout.scored[c]) continue;
     const double error =
-        std::pow((pair.made[c][frame] - pair.recorded[c][frame]) / layout.controls[c].sd, 2);
+        std::pow((pair.synthesised[c][frame] - pair.recorded[c][frame]) / layout.controls[c].sd, 2);
     sums.squared[k++] += error;
     norm += error;
   }
@@ -94,7 +94,7 @@ void add_frame(const Layout& layout, const PairSeries& pair, std::size_t frame, 
   sums.l2 += std::sqrt(norm);
   if (layout.gap < 0) return;
   const auto gap = std::size_t(layout.gap);
-  sums.gap_squared += std::pow(pair.made[gap][frame] - pair.recorded[gap][frame], 2);
+  sums.gap_squared += std::pow(pair.synthesised[gap][frame] - pair.recorded[gap][frame], 2);
 }
 
 void ErrorSums::add(const ErrorSums& other) {
@@ -128,7 +128,8 @@ void score_regions(const Layout& layout, const AllSeries& all, Evaluation& resul
       if (!pair.speech[i]) continue;
       add_frame(layout, pair, i, sums);
       if (layout.gap >= 0)
-        gap.add(pair.made[std::size_t(layout.gap)][i], pair.recorded[std::size_t(layout.gap)][i]);
+        gap.add(pair.synthesised[std::size_t(layout.gap)][i],
+                pair.recorded[std::size_t(layout.gap)][i]);
     }
     result.seconds += pair.seconds(double(sums.frames));
     result.gap_correlation += gap.correlation() / double(all.size());

@@ -13,7 +13,7 @@ constexpr double kMedian = 0.5;
 
 /// One value a phone, from both sides.
 struct PhoneValues {
-  std::vector<double> made, recorded;
+  std::vector<double> synthesised, recorded;
 };
 
 /// The extreme value of a series from 40 ms before to 40 ms after the phones that are wanted.
@@ -32,7 +32,7 @@ PhoneValues extremes(const AllSeries& all, std::size_t series, Wanted wanted, Be
           if (better(values[i], best)) best = values[i];
         return best;
       };
-      out.made.push_back(extreme(pair.made[series]));
+      out.synthesised.push_back(extreme(pair.synthesised[series]));
       out.recorded.push_back(extreme(pair.recorded[series]));
     }
   }
@@ -46,7 +46,8 @@ double share_from(const std::vector<double>& values, double level) {
 
 Comparison compare(const PhoneValues& values) {
   Comparison sums;
-  for (std::size_t i = 0; i < values.made.size(); ++i) sums.add(values.made[i], values.recorded[i]);
+  for (std::size_t i = 0; i < values.synthesised.size(); ++i)
+    sums.add(values.synthesised[i], values.recorded[i]);
   return sums;
 }
 
@@ -54,12 +55,12 @@ ContactScore score_contact(const AllSeries& all, std::size_t lower_lip, double s
   const PhoneValues values = extremes(
       all, lower_lip, [](const PhoneInfo& p) { return p.labiodental; }, std::greater<>());
   ContactScore out;
-  out.phones = values.made.size();
+  out.phones = values.synthesised.size();
   if (out.phones == 0) return out;
   std::vector<double> sorted = values.recorded;
   out.level = percentile(sorted, kMedian) - slack;
   out.measured = share_from(values.recorded, out.level);
-  out.predicted = share_from(values.made, out.level);
+  out.predicted = share_from(values.synthesised, out.level);
   out.difference = compare(values).mean_difference();
   return out;
 }
@@ -68,7 +69,7 @@ RoundingScore score_rounding(const AllSeries& all, std::size_t width) {
   const PhoneValues values = extremes(
       all, width, [](const PhoneInfo& p) { return p.rounded; }, std::less<>());
   RoundingScore out;
-  out.phones = values.made.size();
+  out.phones = values.synthesised.size();
   if (out.phones == 0) return out;
   Comparison speech;
   for (const PairSeries& pair : all)

@@ -96,18 +96,18 @@ Result<PairSeries> make_series(const SentencePair& pair, const Layout& layout) {
   const std::string& id = pair.recorded.id;
   const auto from_recorded = find_channels(layout, recorded, id, "the recording");
   if (!from_recorded) return from_recorded.error();
-  const auto from_made = find_channels(layout, pair.made, id, "what was made");
+  const auto from_made = find_channels(layout, pair.synthesised, id, "the synthesised motion");
   if (!from_made) return from_made.error();
-  if (!(pair.made.rate == recorded.rate) || pair.made.frames() != recorded.frames())
-    return make_error(Code::invalid_argument, "sentence '" + id +
-                                                  "': " + std::to_string(pair.made.frames()) +
-                                                  " frames were made for a recording of " +
-                                                  std::to_string(recorded.frames()) +
-                                                  ", or at another rate; resample them");
+  if (!(pair.synthesised.rate == recorded.rate) || pair.synthesised.frames() != recorded.frames())
+    return make_error(Code::invalid_argument,
+                      "sentence '" + id + "': " + std::to_string(pair.synthesised.frames()) +
+                          " frames were made for a recording of " +
+                          std::to_string(recorded.frames()) +
+                          ", or at another rate; resample them");
   PairSeries out;
   out.pair = &pair;
   out.recorded = to_series(layout, recorded, *from_recorded);
-  out.made = to_series(layout, pair.made, *from_made);
+  out.synthesised = to_series(layout, pair.synthesised, *from_made);
   out.speech = speech_frames(pair.recorded);
   for (std::size_t i = 0; i < out.speech.size(); ++i)
     out.silence.push_back(!out.speech[i] && is_measured(recorded, i));

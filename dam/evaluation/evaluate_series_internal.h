@@ -32,8 +32,8 @@ Layout make_layout(std::vector<Control> controls);
 
 struct PairSeries {
   const SentencePair* pair = nullptr;
-  std::vector<std::vector<double>> recorded, made;  ///< [series][frame]
-  std::vector<bool> speech, silence;                ///< measured frames of either kind
+  std::vector<std::vector<double>> recorded, synthesised;  ///< [series][frame]
+  std::vector<bool> speech, silence;                       ///< measured frames of either kind
   std::vector<std::ptrdiff_t> phone;  ///< index in the script, -1: before or after it, or a gap
 
   const Script& script() const { return pair->recorded.script; }

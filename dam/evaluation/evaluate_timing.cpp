@@ -35,7 +35,7 @@ void add_lags(const Layout& layout, const PairSeries& pair, std::size_t frame, L
     for (std::size_t c = 0; c < layout.controls.size(); ++c) {
       if (!layout.scored[c]) continue;
       const double b = derivative(pair.recorded[c], frame, 1) / layout.controls[c].sd;
-      const double a = derivative(pair.made[c], std::size_t(at), 1) / layout.controls[c].sd;
+      const double a = derivative(pair.synthesised[c], std::size_t(at), 1) / layout.controls[c].sd;
       sums.ab[k] += a * b;
       sums.aa[k] += a * a;
       sums.bb[k] += b * b;

@@ -111,7 +111,8 @@ double rms_velocity(const AllSeries& all, std::size_t control, bool of_made) {
   double n = 0, sum = 0;
   for (const PairSeries& pair : all)
     for (const FrameRun& run : frame_runs(pair.speech))
-      for (const double v : velocities((of_made ? pair.made : pair.recorded)[control], run)) {
+      for (const double v :
+           velocities((of_made ? pair.synthesised : pair.recorded)[control], run)) {
         n += 1;
         sum += v * v;
       }
@@ -129,8 +130,8 @@ void score_misalignment(const Layout& layout, const AllSeries& all, Evaluation& 
     for (const PairSeries& pair : all)
       for (const FrameRun& run : frame_runs(pair.speech))
         if (run.end - run.begin >= kShortestRun)
-          add_run(velocities(pair.made[c], run), velocities(pair.recorded[c], run), made, recorded,
-                  pair.signal().rate, sums);
+          add_run(velocities(pair.synthesised[c], run), velocities(pair.recorded[c], run), made,
+                  recorded, pair.signal().rate, sums);
   }
   const double n = std::max(1.0, double(sums.extremes));
   result.timing.extremes = sums.extremes;

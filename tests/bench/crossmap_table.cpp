@@ -114,7 +114,7 @@ Scored run(const Halves& halves, const Project& changes) {
     recorded.push_back(&halves.measured[i]);
   }
   dam::ScoreOptions options;
-  const auto& names = pairs[0].made.names;
+  const auto& names = pairs[0].synthesised.names;
   for (dam::Control& control : dam::recording_scale(recorded)) {
     if (std::find(names.begin(), names.end(), control.name) != names.end()) {
       options.scale.push_back(control);

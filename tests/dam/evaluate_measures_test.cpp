@@ -207,21 +207,21 @@ TEST(Score, RefusesWhatDoesNotMatch) {
   const auto good = pair_of({3}, vowels(), value, value);
   auto bad = good;
   bad.recorded.id = "odd";
-  bad.made.values.pop_back();
+  bad.synthesised.values.pop_back();
   auto result = score({&bad, 1});
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().code, Code::invalid_argument);
   EXPECT_THAT(result.error().message, testing::HasSubstr("odd"));
   bad = good;
-  bad.made.rate = {30, 1};
+  bad.synthesised.rate = {30, 1};
   EXPECT_EQ(score({&bad, 1}).error().code, Code::invalid_argument);
   bad = good;
-  bad.made.names[0] = "fap4";
+  bad.synthesised.names[0] = "fap4";
   EXPECT_EQ(score({&bad, 1}).error().code, Code::not_found);
   EXPECT_EQ(score({}).error().code, Code::invalid_argument);
   // Pairs that agree in themselves, but not with each other.
   bad = good;
-  bad.made.rate = bad.recorded.signal.rate = {30, 1};
+  bad.synthesised.rate = bad.recorded.signal.rate = {30, 1};
   const SentencePair both[] = {good, bad};
   EXPECT_EQ(score(both).error().code, Code::invalid_argument);
 }

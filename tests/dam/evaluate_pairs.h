@@ -34,8 +34,8 @@ inline SentencePair pair_of(const std::vector<int>& faps, const Script& script,
   SentencePair pair;
   pair.recorded.id = "one";
   pair.recorded.script = script;
-  for (Signal* signal : {&pair.recorded.signal, &pair.made}) {
-    const Value& value = signal == &pair.made ? made : recorded;
+  for (Signal* signal : {&pair.recorded.signal, &pair.synthesised}) {
+    const Value& value = signal == &pair.synthesised ? made : recorded;
     for (const int fap : faps) signal->names.push_back("fap" + std::to_string(fap));
     for (int i = 0; i < frames; ++i)
       for (const int fap : faps) signal->values.push_back(value(fap, i));

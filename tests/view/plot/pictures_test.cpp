@@ -32,7 +32,7 @@ struct Scored {
     pair.recorded.id = id;
     pair.recorded.text = "text of " + id;
     pair.recorded.signal = signal;
-    pair.made = signal;
+    pair.synthesised = signal;
     pairs.push_back(std::move(pair));
     dam::UtteranceScore score;
     score.id = id;
@@ -81,7 +81,7 @@ TEST(PlotSentences, BarsTellWhenTheLipsAreShut) {
                        {-90, 0, -40, 0, -20, 0, -40, 0, -90, 0}));
   const auto plain = plot::sentences_svg(scored.pairs, scored.evaluation);
   scored.pairs[0].recorded.script.phones = {{0.04, 0.12, "B", {}}};
-  for (double& value : scored.pairs[0].made.values) value -= 30;  // 60 at least: never shut
+  for (double& value : scored.pairs[0].synthesised.values) value -= 30;  // 60 at least: never shut
   const auto svg = plot::sentences_svg(scored.pairs, scored.evaluation);
   ASSERT_TRUE(plain && svg);
   EXPECT_THAT(*plain, Not(HasSubstr("fill=\"#0072b2\"")));

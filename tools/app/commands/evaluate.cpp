@@ -133,7 +133,7 @@ std::vector<dam::Control> common_scale(const std::vector<dam::Control>& a,
                                        const std::vector<dam::SentencePair>& b) {
   std::vector<dam::Control> common;
   for (const dam::Control& control : a) {
-    const auto& names = b[0].made.names;
+    const auto& names = b[0].synthesised.names;
     if (std::find(names.begin(), names.end(), control.name) != names.end()) {
       common.push_back(control);
     }

@@ -42,17 +42,17 @@ Result<CodecScore> score_codec(const std::vector<dam::SentencePair>& pairs,
   std::vector<dam::SentencePair> coded, total;
   for (const dam::SentencePair& pair : pairs) {
     if (progress) progress(double(coded.size()) / double(pairs.size()));
-    Result<fap::Sequence> clip = dam::to_sequence(pair.made);
+    Result<fap::Sequence> clip = dam::to_sequence(pair.synthesised);
     if (!clip) return clip.error();
     Result<std::vector<std::uint8_t>> stream = fba::encode(*clip, coding);
     if (!stream) return stream.error();
-    Result<dam::Signal> shown = decoded_signal(*stream, pair.made.frames());
+    Result<dam::Signal> shown = decoded_signal(*stream, pair.synthesised.frames());
     if (!shown) return shown.error();
-    rename(*shown, pair.made);
+    rename(*shown, pair.synthesised);
     score.bytes += stream->size();
     seconds += clip->duration();
     dam::Utterance before = pair.recorded;
-    before.signal = pair.made;
+    before.signal = pair.synthesised;
     before.signal.measured = pair.recorded.signal.measured;
     coded.push_back({std::move(before), *shown});
     total.push_back({pair.recorded, std::move(*shown)});

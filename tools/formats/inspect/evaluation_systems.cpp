@@ -54,7 +54,7 @@ Result<std::vector<dam::Control>> scale_of(const std::vector<dam::SentencePair>&
   for (const dam::SentencePair& pair : pairs) recordings.push_back(&pair.recorded);
   std::vector<dam::Control> scale = dam::recording_scale(recordings);
   std::erase_if(scale, [&](const dam::Control& control) {
-    const auto& names = pairs[0].made.names;
+    const auto& names = pairs[0].synthesised.names;
     return std::find(names.begin(), names.end(), control.name) == names.end();
   });
   if (!scale.empty()) return scale;

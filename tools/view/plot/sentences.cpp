@@ -30,7 +30,7 @@ std::string channel_of(const std::vector<std::string>& names, int fap) {
 // Jaw, gap and width as far as both sides have their FAPs; else the first three controls.
 std::vector<SentenceCurve> curves_of(const dam::SentencePair& pair) {
   std::vector<std::string> both;
-  for (const std::string& name : pair.made.names) {
+  for (const std::string& name : pair.synthesised.names) {
     const auto& recorded = pair.recorded.signal.names;
     if (std::find(recorded.begin(), recorded.end(), name) != recorded.end()) both.push_back(name);
   }
@@ -90,18 +90,19 @@ Panel panel_of(const char* place, const dam::SentencePair& pair, double nrmse) {
   panel.heading = std::string(place) + ": " + pair.recorded.id +
                   (text.empty() ? "" : " \"" + text + "\"") +
                   tools::format("  (NRMSE %.3f)", nrmse);
-  panel.seconds = pair.made.rate.seconds(double(pair.made.frames()));
+  panel.seconds = pair.synthesised.rate.seconds(double(pair.synthesised.frames()));
   panel.script = &pair.recorded.script;
   panel.names_below = true;
   for (const SentenceCurve& curve : curves_of(pair)) {
     panel.rows.push_back({curve.title,
                           curve.subtitle,
                           "",
-                          {points(pair.recorded.signal, curve), points(pair.made, curve)}});
+                          {points(pair.recorded.signal, curve), points(pair.synthesised, curve)}});
     if (curve.title != kInnerGap) continue;
     const dam::Script& script = pair.recorded.script;
     panel.rows.back().unit = "bars: P B M shut";
-    panel.rows.back().bars = {closures(pair.recorded.signal, script), closures(pair.made, script)};
+    panel.rows.back().bars = {closures(pair.recorded.signal, script),
+                              closures(pair.synthesised, script)};
   }
   return panel;
 }

@@ -44,7 +44,7 @@ Result<std::string> sample(const Sheet& sheet, std::size_t number, const char* w
                     .sound = {},
                     .script = pair.recorded.script};
   const std::array<std::pair<const dam::Signal*, const char*>, 2> sides = {
-      {{&pair.recorded.signal, "recorded"}, {&pair.made, "made"}}};
+      {{&pair.recorded.signal, "recorded"}, {&pair.synthesised, "made"}}};
   for (const auto& [signal, name] : sides) {
     auto motion = shown(*signal);
     if (!motion) return std::move(motion).error();
@@ -63,7 +63,7 @@ Result<std::string> sample(const Sheet& sheet, std::size_t number, const char* w
 Result<std::string> samples(const Sheet& sheet) {
   if (sheet.head == nullptr || sheet.rig == nullptr) return std::string();
   const std::string begin = "<h2>On the head</h2>\n";
-  if (!dam::to_sequence((*sheet.pairs)[0].made))
+  if (!dam::to_sequence((*sheet.pairs)[0].synthesised))
     return begin +
            "<p>The controls of this character are neither FAPs nor ARKit shapes, so no head "
            "shows them here.</p>\n";
