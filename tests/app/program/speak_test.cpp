@@ -106,6 +106,32 @@ INSTANTIATE_TEST_SUITE_P(
                     std::pair{"es", "Buenos dias, mi amigo vive en Bilbao."}),
     [](const auto& param_info) { return std::string(param_info.param.first); });
 
+// A name that is typed wrongly is no text to speak.
+TEST(Speak, RefusesAMissingFile) {
+  const TempDir dir;
+  test::spill(dir / "words.TextGrid", "no grid");
+  const std::string absent[] = {"nosuch.TextGrid", "talk.wav", dir / "nosuch", "talk.fba"};
+  for (const std::string& name : absent) {
+    const auto result = animeme({"speak", name, "-o", dir / "a.fba"});
+    EXPECT_EQ(result.exit_code, 3) << name;
+    EXPECT_THAT(result.err, HasSubstr("there is no file " + name));
+    EXPECT_THAT(result.err, HasSubstr("--text"));
+    EXPECT_FALSE(std::filesystem::exists(dir / "a.fba"));
+  }
+  EXPECT_THAT(animeme({"speak", dir / "word.TextGrid", "-o", dir / "a.fba"}).err,
+              HasSubstr("did you mean " + (dir / "words.TextGrid") + "?"));
+  EXPECT_EQ(animeme({"speak", dir / ".", "-o", dir / "a.fba"}).exit_code, 2);  // a folder
+  const auto transcript = animeme(
+      {"speak", "--audio", dir / "a.wav", "--transcript", "words.txt", "-o", dir / "a.fba"});
+  EXPECT_EQ(transcript.exit_code, 2);
+  EXPECT_THAT(transcript.err, HasSubstr("$(cat words.txt)"));
+  for (const std::string text : {"Hello", "And/or, she said.", "<speak>either/or</speak>"}) {
+    const auto result = animeme({"speak", text, "-o", dir / "a.fba"});
+    EXPECT_EQ(result.exit_code, 0) << text << result.err;
+  }
+  EXPECT_EQ(animeme({"speak", "--text", "talk.wav", "-o", dir / "a.fba"}).exit_code, 0);
+}
+
 // What everybody types first.
 TEST(Speak, TakesATextOrAFileWithoutAnOption) {
   const TempDir dir;

@@ -5,6 +5,7 @@
 #include "tools/app/commands/command.h"
 #include "tools/app/commands/script_options.h"
 #include "tools/app/commands/terminal.h"
+#include "tools/app/commands/text_or_file.h"
 #include "tools/formats/common/json.h"
 #include "tools/formats/common/text.h"
 #include "tools/formats/files/files.h"
@@ -158,6 +159,7 @@ void add_options(OptionTable& cli, AlignOptions& options) {
       ->required();
   cli.add("--transcript", options.transcript,
           "Text that is spoken; without it and --script, phones are recognised")
+      ->check(problem_with_transcript)
       ->sets(options.has_transcript);
   cli.add("--script", options.script,
           "The text as a script of words, such as subtitles or the output of a recogniser; "

@@ -14,6 +14,7 @@
 #include "tools/app/commands/motion_options.h"
 #include "tools/app/commands/preview.h"
 #include "tools/app/commands/spoken_options.h"
+#include "tools/app/commands/text_or_file.h"
 #include "tools/formats/common/bit_rate.h"
 #include "tools/formats/common/json.h"
 #include "tools/formats/common/text.h"
@@ -265,23 +266,28 @@ Result<int> write_output(const SpeakOptions& options, dam::Signal signal,
 std::string place_input(SpeakOptions& options) {
   speech::SpokenOptions& spoken = options.spoken;
   const std::string& input = options.input;
-  const auto ends_in = [&, extension = " " + extension_of(input) + " "](const char* list) {
-    return std::string(list).find(extension) != std::string::npos;
-  };
   std::string* place = &spoken.text;
   std::error_code none;
-  if (!std::filesystem::is_regular_file(input, none)) {
+  if (!std::filesystem::exists(input, none)) {
     if (spoken.has_text)
       return "--text is one text too many beside '" + input + "'; give one of them";
     spoken.has_text = true;
-  } else if (ends_in(" .txt .ssml ")) {
-    place = &spoken.text_file;
-  } else if (ends_in(" .wav .flac .mp3 .m4a .aac .ogg .opus .aif .aiff .wma .webm .mp4 .mkv ")) {
-    place = &spoken.audio;
-  } else if (ends_in(" .textgrid .tsv .pho .vtt .srt .lab .phn .wrd .ctm .json .jsonl ")) {
-    place = &spoken.script;
+  } else if (std::filesystem::is_directory(input, none)) {
+    return input + " is a folder; a text of this name comes after --text";
   } else {
-    return input + " is a file; give it after --text-file, --script or --audio";
+    switch (spoken_file(input)) {
+      case SpokenFile::text:
+        place = &spoken.text_file;
+        break;
+      case SpokenFile::recording:
+        place = &spoken.audio;
+        break;
+      case SpokenFile::script:
+        place = &spoken.script;
+        break;
+      case SpokenFile::other:
+        return input + " is a file; give it after --text-file, --script or --audio";
+    }
   }
   const bool was_given = !place->empty();
   *place = input;
@@ -299,6 +305,9 @@ std::string place_input(SpeakOptions& options) {
 Result<int> run(SpeakOptions& options) {
   if (!options.input.empty()) {
     if (const std::string wrong = place_input(options); !wrong.empty()) return usage_error(wrong);
+    if (options.input == options.spoken.text) {
+      if (auto text = no_missing_file(options.input, "--text"); !text) return text.error();
+    }
   }
   if (const std::string missing = missing_options(options.spoken); !missing.empty()) {
     return usage_error(missing);

@@ -2,6 +2,7 @@
 
 #include "tools/app/commands/options.h"
 #include "tools/app/commands/script_options.h"
+#include "tools/app/commands/text_or_file.h"
 
 namespace animeme::tools {
 
@@ -25,6 +26,7 @@ void add_spoken_options(OptionTable& cli, speech::SpokenOptions& options) {
       ->excludes("--text --text-file");
   cli.add("--transcript", options.transcript,
           "Text that is spoken in --audio; its phones are found by forced alignment")
+      ->check(problem_with_transcript)
       ->sets(options.has_transcript)
       ->needs("--audio")
       ->excludes("--script");
