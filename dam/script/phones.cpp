@@ -62,9 +62,11 @@ constexpr std::array<std::string_view, kPhoneClassCount> kClassNames = {
 
 // Pauses, breaths and noises as the common aligners write them, in lower case.
 constexpr std::string_view kSilences[] = {
-    "",    "sil",  "silence", "sp",   "spn",   "nsn",  "pau",   "h#",  "#h",
-    "#",   "_",    "__",      "_:",   "epi",   "brth", "<sil>", "<s>", "</s>",
-    "<p>", "<p:>", "<eps>",   "<sp>", "<spn>", "{sl}", "{sp}",  "xxx>"};
+    "",      "sil",  "silence", "sp",      "spn",   "nsn",  "pau",    "h#",     "#h",
+    "#",     "_",    "__",      "_:",      "epi",   "brth", "<sil>",  "<s>",    "</s>",
+    "<p>",   "<p:>", "<eps>",   "<sp>",    "<spn>", "{sl}", "{sp}",   "xxx>",   "silb",
+    "sile",  "silp", "<p:",     "<pause>", "<#>",   "(.)",  "(..)",   "[sil]",  "{sil}",
+    "<pau>", "+",    "##",      "vcl",     "[sp]",  "cl",   "<silb>", "<sile>", "(sil)"};
 
 struct Alias {
   std::string_view spelling, label;
@@ -78,6 +80,12 @@ constexpr Alias kAliases[] = {{"AXR", "ER"}, {"IX", "IH"}, {"UX", "UW"},   {"DX"
                               {"TCL", "T"},  {"GCL", "G"}, {"KCL", "K"}};
 
 char upper(char c) { return c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c; }
+
+// Kaldi says where in a word a phone stands: hh_B, ih1_I, t_E, ax_S.
+bool is_placed(std::string_view spelling) {
+  return spelling.size() > 2 && spelling[spelling.size() - 2] == '_' &&
+         std::string_view("BIES").find(spelling.back()) != std::string_view::npos;
+}
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
@@ -113,16 +121,14 @@ std::string_view phone_class_name(PhoneClass phone_class) {
 }
 
 bool is_silence_spelling(std::string_view spelling) {
-  if (spelling.size() > 8) return false;
-  const std::string text = lower_case(spelling);
+  if (spelling.size() > 10) return false;
+  std::string text = lower_case(spelling);
+  if (is_placed(spelling)) text.resize(text.size() - 2);
   return std::find(std::begin(kSilences), std::end(kSilences), text) != std::end(kSilences);
 }
 
 std::string_view arpabet_label(std::string_view spelling) {
-  // Kaldi says where in a word a phone stands: hh_B, ih1_I, t_E, ax_S.
-  const bool placed = spelling.size() > 2 && spelling[spelling.size() - 2] == '_' &&
-                      std::string_view("BIES").find(spelling.back()) != std::string_view::npos;
-  if (placed) spelling.remove_suffix(2);
+  if (is_placed(spelling)) spelling.remove_suffix(2);
   if (is_silence_spelling(spelling)) return kPhones[0].label;
   if (spelling.size() > 5) return {};
   std::string text(spelling);

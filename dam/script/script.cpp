@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dam/script/phones.h"
+#include "dam/script/script_finish_internal.h"
 #include "dam/script/script_readers_internal.h"
 #include "dam/script/script_values_internal.h"
 #include "dam/script/timings.h"
@@ -15,28 +16,34 @@ struct Format {
   ScriptFormat shown;
   bool (*looks_like)(std::string_view text);
   ReadLabels read;
+  TimeUnit unit = TimeUnit::known;
 };
 
 // The first that recognises the text reads it: strict tests before lenient ones.
 constexpr Format kFormats[] = {
-    {{"textgrid", "Praat TextGrid, long or short"}, looks_like_textgrid, read_textgrid},
+    {{"textgrid", "Praat TextGrid, long or short"},
+     looks_like_textgrid,
+     read_textgrid,
+     TimeUnit::assumed},
     {{"subtitles", "SubRip and WebVTT"}, looks_like_subtitles, read_subtitles},
     {{"rhubarb", "mouth cues of Rhubarb Lip Sync"}, looks_like_rhubarb_xml, read_rhubarb_xml},
     {{"moho", "switch data of Moho, Papagayo and Rhubarb"}, looks_like_moho, read_moho},
-    {{"mfa", "Montreal Forced Aligner"}, looks_like_mfa_table, read_mfa_table},
+    {{"mfa", "Montreal Forced Aligner"}, looks_like_mfa_table, read_mfa_table, TimeUnit::assumed},
     {{"esps", "ESPS labels, as Festival writes them"}, looks_like_esps, read_esps},
     {{"phseg", "phones or words of PocketSphinx"}, looks_like_phseg, read_phseg},
     {{"tsv", "a table whose header names start_s, end_s and phone or word"},
      looks_like_tsv,
-     read_tsv},
+     read_tsv,
+     TimeUnit::assumed},
     {{"rhubarb", {}}, looks_like_rhubarb_tsv, read_rhubarb_tsv},
     {{"flite", "phones and their ends, as flite -psdur prints them"}, looks_like_flite, read_flite},
-    {{"ctm", "CTM of NIST and Kaldi"}, looks_like_ctm, read_ctm},
+    {{"ctm", "CTM of NIST and Kaldi"}, looks_like_ctm, read_ctm, TimeUnit::assumed},
     {{"htk", "HTK labels and master label files"}, looks_like_htk, read_htk},
     {{"timit", "TIMIT, in samples"}, looks_like_timit, read_timit},
     {{"labels", "lines of start, end and label in seconds, as Audacity writes them"},
      looks_like_plain_labels,
-     read_plain_labels},
+     read_plain_labels,
+     TimeUnit::assumed},
     {{"pho", "MBROLA"}, looks_like_pho, read_pho},
 };
 
@@ -97,12 +104,15 @@ Result<Timings> read_timings(std::string_view text, const ScriptOptions& options
   if (!timings) return timings.error();
   timings->format = (*format)->shown.name;
   if (options.alphabet != Alphabet::automatic) timings->alphabet = options.alphabet;
+  if (auto done = finish_labels(*timings, options, (*format)->unit); !done) return done.error();
   return timings;
 }
 
-Result<Script> read_script(std::string_view text, const ScriptOptions& options) {
+Result<Script> read_script(std::string_view text, const ScriptOptions& options,
+                           std::vector<ScriptNote>* notes) {
   const auto timings = read_timings(text, options);
   if (!timings) return timings.error();
+  if (notes != nullptr) *notes = timings->notes;
   return make_script(*timings);
 }
 

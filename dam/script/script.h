@@ -16,9 +16,9 @@
 ///       0	0.21	SIL
 ///       0.21	0.25	B	bin
 ///
-/// - TextGrid: Praat's text form, long or short. The tier named phones, phone, phonemes or "NAME -
-///   phones" (any case) gives the phones; the tier words, word or "NAME - words", if there is one,
-///   the words.
+/// - TextGrid: Praat's text form, long or short. The tier named phones, phone, phonemes, MAU,
+///   PhonAlign or "NAME - phones" (any case) gives the phones; the tier words, word, ORT-MAU,
+///   TokensAlign or "NAME - words", if there is one, the words. An only tier is read in any case.
 /// - Label files: HTK (.lab, .mlf), Festival and ESPS (.lab), TIMIT (.phn, .wrd), Audacity, lines
 ///   of start, end and label; MBROLA (.pho); CTM; PocketSphinx (.phseg); flite; Montreal aligner
 ///   (.csv); Rhubarb Lip Sync (.tsv, .xml) and Moho (.dat), whose mouths become phones; SubRip and
@@ -30,6 +30,7 @@
 /// Source: dam/script/phoneme_scripts.md, sections 1 and 3.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -83,14 +84,42 @@ enum class LabelUnit : std::uint8_t {
 /// Options of read_script(). Values that are empty or 0 are detected from the content.
 struct ScriptOptions {
   Alphabet alphabet = Alphabet::automatic;  ///< of the labels
-  /// The exact name of the tier to read (TextGrid, Montreal aligner), or of the recording if a file
-  /// holds several (HTK .mlf, CTM). Empty: chosen by the names above, or the only one.
+  /// The name of the tier to read (TextGrid, Montreal aligner; in any case) or its number from 1,
+  /// or the exact name of the recording if a file holds several (HTK .mlf, CTM). Empty: chosen by
+  /// the names above, or the only one.
   std::string tier;
   std::string format;                     ///< a name of text_script_formats() (timings.h)
   LabelUnit unit = LabelUnit::automatic;  ///< of the labels
   /// Time units per second in the file, > 0, for formats that count: 16000 (samples of TIMIT), 100
   /// (frames of PocketSphinx), 24 (frames of Moho), 10000000 (HTK). 0: these defaults.
   double rate = 0;
+  /// Whose words are read where a file tells speakers apart (WebVTT, TextGrids of several speakers,
+  /// recognisers), in any case. Empty: those of all.
+  std::string speaker;
+  /// Marks such as "[noise]" (dam/script/marks.h) are words, too; else they are silence.
+  bool speak_marks = false;
+};
+
+/// Something in a file that was left out, or read as something else than it says; one of a kind.
+struct ScriptNote {
+  /// What was done.
+  enum class Kind : std::uint8_t {
+    marks,         ///< marks became silence
+    no_time,       ///< labels that take no time were left out
+    overlaps,      ///< words were cut, where the next begin before they end
+    milliseconds,  ///< times were taken for milliseconds
+    long_labels,   ///< words last so long that their times may be in another unit
+    counts,        ///< a TextGrid holds more or less than it says
+    given_times,   ///< words without times got some, between those of their neighbours
+  };
+  Kind kind = Kind::marks;  ///< what was done
+  std::string message;      ///< one sentence without a full stop, about the first of them
+  std::size_t count = 0;    ///< how many of them there are
+  std::int64_t line = 0;    ///< of the first one, from 1; 0: unknown
+
+  /// "line 5: MESSAGE (3 in all)".
+  std::string describe() const;
+  friend bool operator==(const ScriptNote&, const ScriptNote&) = default;
 };
 
 /// Reads a script in any format of the list above.
@@ -98,15 +127,17 @@ struct ScriptOptions {
 /// The result begins at 0, has no gaps (they become SIL) and no two SIL in a row, and every label
 /// is one of the 41 of dam/script/phones.h. SIL has no word. An IPA label for which ARPAbet needs
 /// two phones ("ts") becomes two phones that share its time; one without a sound of its own (a lone
-/// length mark) lengthens the previous phone.
+/// length mark) lengthens the previous phone. Marks are silence, labels that take no time are left
+/// out, and words end where the next begin; `notes`, if not null, receives what was done of this.
 ///
 /// Errors, with line and column: syntax (unknown format, missing column or tier, an invalid number,
-/// phones that overlap by more than kTimeTolerance or run backwards, end <= start, a negative
-/// time), not_found (unknown label; no such tier or recording), out_of_range (infinite times,
-/// beyond kMaxScriptSeconds), truncated (an empty file, or one that ends early), unsupported (a
-/// binary TextGrid; words without phones), invalid_argument (no such format, a rate that is not a
-/// number above 0).
-Result<Script> read_script(std::string_view text, const ScriptOptions& options = {});
+/// phones that overlap by more than kTimeTolerance or run backwards, end < start, a negative time),
+/// not_found (unknown label; no such tier or recording), out_of_range (infinite times, beyond
+/// kMaxScriptSeconds), truncated (an empty file, or one that ends early), unsupported (a binary
+/// TextGrid; words without phones), invalid_argument (no such format, a rate that is not a number
+/// above 0).
+Result<Script> read_script(std::string_view text, const ScriptOptions& options = {},
+                           std::vector<ScriptNote>* notes = nullptr);
 
 /// TSV with the header "start_s end_s phone word". Times have enough digits to restore the same
 /// numbers. Tabs and line ends inside words become spaces. A script that read_script() returned is

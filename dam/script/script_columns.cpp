@@ -19,13 +19,6 @@ bool all_numbers(const LabelRow& row, std::size_t from) {
   return row.fields.size() > from;
 }
 
-// "EXCUSE(2)" is the second way to say it.
-std::string_view without_variant(std::string_view word) {
-  const std::size_t bracket = word.rfind('(');
-  const bool variant = bracket != std::string_view::npos && bracket > 0 && word.ends_with(')');
-  return variant ? word.substr(0, bracket) : word;
-}
-
 }  // namespace
 
 bool looks_like_pho(std::string_view text) {
@@ -129,9 +122,6 @@ Result<Timings> read_phseg(std::string_view text, const ScriptOptions& options) 
       return row.error(Code::syntax, "a line holds first frame, last frame, score and phone", 4);
     }
     TimedLabel label = row.label_at(3, *start, (*last + 1) / rate);  // the last frame belongs to it
-    label.label = std::string(without_variant(row.fields[3]));
-    // Fillers are called <sil>, ++NOISE++ or +SPN+.
-    if (label.label.starts_with('<') || label.label.starts_with('+')) label.label.clear();
     label.is_word = words && !label.label.empty();
     timings.labels.push_back(std::move(label));
   }

@@ -12,8 +12,11 @@ constexpr double kHtkRate = 1e7;      // units of 100 ns
 constexpr double kTimitRate = 16000;  // samples
 constexpr std::size_t kLooked = 20;   // lines that identify a format
 
+// Audacity writes the tab in front of a label that is empty.
 bool has_times(const LabelRow& row) {
-  return row.fields.size() >= 3 && row.is_number(0) && row.is_number(1);
+  const bool label = row.fields.size() >= 3 ||
+                     (row.fields.size() == 2 && row.text.find('\t') != std::string_view::npos);
+  return label && row.is_number(0) && row.is_number(1);
 }
 
 // Those of the first lines that have a start, an end and a label, if the very first and most have.

@@ -1,6 +1,7 @@
 // Scripts of mouths: Rhubarb Lip Sync as TSV and XML, and the switch data of Moho.
 #include <algorithm>
 
+#include "dam/script/marks.h"
 #include "dam/script/script_readers_internal.h"
 #include "dam/script/script_values_internal.h"
 #include "dam/script/viseme_phones.h"
@@ -14,6 +15,7 @@ Result<std::string> phone_of(VisemeSet set, std::string_view name, std::int64_t 
                              std::int64_t column) {
   const auto label = phone_of_viseme(set, name);
   if (label) return std::string(*label);
+  if (is_mark(name)) return std::string(name);
   return error_at_line(
       Code::not_found,
       "unknown mouth " + in_quotes(name) +
@@ -23,7 +25,7 @@ Result<std::string> phone_of(VisemeSet set, std::string_view name, std::int64_t 
 }
 
 bool is_shape(std::string_view name) {
-  return phone_of_viseme(VisemeSet::rhubarb, name).has_value();
+  return phone_of_viseme(VisemeSet::rhubarb, name).has_value() || is_mark(name);
 }
 
 Result<Timings> read_events(std::string_view text, VisemeSet set, double rate, double first) {

@@ -7,10 +7,14 @@
 #include <string_view>
 #include <vector>
 
+#include "dam/script/ipa.h"
 #include "dam/script/script_text_internal.h"
 #include "dam/script/timings.h"
 
 namespace animeme::dam {
+
+/// How write_webvtt() begins where it writes phones for want of words.
+inline constexpr std::string_view kPhonesHeader = "WEBVTT phones";
 
 /// A reader; `text` is UTF-8. It sets neither `format` nor what looks_like_words() decides.
 using ReadLabels = Result<Timings> (*)(std::string_view text, const ScriptOptions& options);
@@ -47,6 +51,9 @@ bool looks_like_rhubarb_tsv(std::string_view text);
 bool looks_like_rhubarb_xml(std::string_view text);
 bool looks_like_moho(std::string_view text);
 bool looks_like_subtitles(std::string_view text);
+
+/// Whether the phones of a label are one sound: no syllable, nor letters that happen to be a word.
+bool is_one_sound(std::string_view label, const std::vector<IpaPhone>& phones);
 
 /// Marks the labels as words where `unit` says so, or where most of them cannot be phones.
 void decide_unit(std::vector<TimedLabel>& labels, LabelUnit unit);

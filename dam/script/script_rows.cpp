@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "dam/script/ipa.h"
+#include "dam/script/marks.h"
 #include "dam/script/phones.h"
 #include "dam/script/script_readers_internal.h"
 #include "dam/script/script_values_internal.h"
@@ -25,7 +26,9 @@ std::size_t letters_of(std::string_view label) {
 
 bool may_be_phone(std::string_view label) {
   if (is_silence_spelling(label) || !arpabet_label(label).empty()) return true;
-  return label.size() <= 16 && letters_of(label) <= 2 && parse_ipa(label).has_value();
+  if (label.size() > 16 || letters_of(label) > 2) return false;
+  const auto sounds = parse_ipa(label);
+  return sounds && is_one_sound(label, *sounds);
 }
 
 }  // namespace
@@ -33,7 +36,7 @@ bool may_be_phone(std::string_view label) {
 void decide_unit(std::vector<TimedLabel>& labels, LabelUnit unit) {
   std::size_t words = 0, all = 0;
   for (const TimedLabel& label : labels) {
-    if (is_silence_spelling(label.label)) continue;
+    if (is_silence_spelling(label.label) || is_mark(label.label)) continue;
     ++all;
     if (!may_be_phone(label.label)) ++words;
   }

@@ -1,8 +1,13 @@
 // The phone and word tiers of a TextGrid, read and written.
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <optional>
 #include <span>
 
+#include "dam/script/ipa.h"
+#include "dam/script/marks.h"
+#include "dam/script/phones.h"
 #include "dam/script/script_readers_internal.h"
 #include "dam/script/script_values_internal.h"
 #include "dam/script/table_text_internal.h"
@@ -11,20 +16,53 @@
 namespace animeme::dam {
 namespace {
 
-constexpr std::string_view kPhoneTiers[] = {"phones", "phone", "phonemes"};
-constexpr std::string_view kWordTiers[] = {"words", "word"};
+// The names that programs give to their tiers, in lower case: Montreal, WebMAUS, SPPAS, FAVE,
+// TIMIT.
+constexpr std::string_view kPhoneTiers[] = {"phones",   "phone", "phonemes",  "phoneme",
+                                            "kan-phon", "mau",   "phonalign", "phn"};
+// The pronunciation of a word in one label.
+constexpr std::string_view kSpellingTiers[] = {"kan-mau", "kan"};
+constexpr std::string_view kWordTiers[] = {"words",       "word",   "ort-mau", "ort",
+                                           "tokensalign", "tokens", "wrd"};
 
 using Tiers = std::vector<const TextGridTier*>;
 
-// The tiers called `name`, or "SPEAKER - name" where there are none (multi-speaker alignments).
-Tiers tiers_called(const TextGrid& grid, std::string_view name) {
-  Tiers whole, suffix;
-  for (const TextGridTier& tier : grid.tiers) {
-    const std::string lower = lower_case(trimmed(tier.name));
-    if (lower == name) whole.push_back(&tier);
-    if (lower.ends_with(" - " + std::string(name))) suffix.push_back(&tier);
+bool is_known_tier(std::string_view lower) {
+  const auto has = [&](std::span<const std::string_view> names) {
+    return std::find(names.begin(), names.end(), lower) != names.end();
+  };
+  return has(kPhoneTiers) || has(kSpellingTiers) || has(kWordTiers);
+}
+
+// Whose tier of this name it is, "Ann - phones", "phones_Ann"; "" for "phones" itself, nothing for
+// tiers of other names.
+std::optional<std::string> owner_of(const TextGridTier& tier, std::string_view name) {
+  constexpr std::string_view kBetween = " -_/:.";
+  const std::string lower = lower_case(trimmed(tier.name));
+  if (lower == name) return "";
+  if (lower.size() <= name.size() || is_known_tier(lower)) return std::nullopt;
+  const std::size_t rest = lower.size() - name.size();
+  if (lower.ends_with(name) && kBetween.find(lower[rest - 1]) != kBetween.npos) {
+    const std::size_t last = lower.find_last_not_of(kBetween, rest - 1);
+    return last == std::string::npos ? "" : lower.substr(0, last + 1);
   }
-  return whole.empty() ? suffix : whole;
+  if (lower.starts_with(name) && kBetween.find(lower[name.size()]) != kBetween.npos) {
+    const std::size_t first = lower.find_first_not_of(kBetween, name.size());
+    return first == std::string::npos ? "" : lower.substr(first);
+  }
+  return std::nullopt;
+}
+
+// The tiers called `name`, or those of speakers where there are none; of one speaker, if asked for.
+Tiers tiers_called(const TextGrid& grid, std::string_view name, std::string_view speaker) {
+  Tiers whole, owned;
+  for (const TextGridTier& tier : grid.tiers) {
+    const auto owner = owner_of(tier, name);
+    if (!owner || tier.points) continue;
+    if (owner->empty() && speaker.empty()) whole.push_back(&tier);
+    if (!owner->empty() && (speaker.empty() || *owner == speaker)) owned.push_back(&tier);
+  }
+  return whole.empty() ? owned : whole;
 }
 
 std::string tier_list(const TextGrid& grid) {
@@ -41,54 +79,105 @@ Result<const TextGridTier*> choose_named(const TextGrid& grid, const std::string
   for (const TextGridTier& tier : grid.tiers) {
     if (tier.name == name) return &tier;
   }
+  const std::string wanted = lower_case(trimmed(name));
+  for (const TextGridTier& tier : grid.tiers) {
+    if (lower_case(trimmed(tier.name)) == wanted) return &tier;
+  }
+  const auto number = parse_number(wanted);
+  if (number && *number >= 1 && *number <= double(grid.tiers.size()) &&
+      *number == std::floor(*number)) {
+    return &grid.tiers[std::size_t(*number) - 1];
+  }
   return make_error(Code::not_found,
                     "the file has no tier " + in_quotes(name) + "; " + tier_list(grid));
 }
 
 // The phones; where there are none, the words.
-Result<const TextGridTier*> choose_tier(const TextGrid& grid) {
+Result<const TextGridTier*> choose_tier(const TextGrid& grid, const std::string& speaker) {
+  const std::string owner = lower_case(trimmed(speaker));
   const auto only_one = [&](std::span<const std::string_view> names,
                             std::string_view what) -> Result<const TextGridTier*> {
     for (const std::string_view name : names) {
-      const Tiers found = tiers_called(grid, name);
+      const Tiers found = tiers_called(grid, name, owner);
       if (found.size() == 1) return found[0];
       if (found.size() > 1) {
         return make_error(Code::not_found,
                           "more than one tier holds " + std::string(what) +
-                              "; name the one to read (--tier): " + tier_list(grid));
+                              "; name the one to read (--tier, --speaker): " + tier_list(grid));
       }
     }
     return static_cast<const TextGridTier*>(nullptr);
   };
   auto phones = only_one(kPhoneTiers, "phones");
   if (!phones || *phones != nullptr) return phones;
+  auto spellings = only_one(kSpellingTiers, "pronunciations");
+  if (!spellings || *spellings != nullptr) return spellings;
   auto words = only_one(kWordTiers, "words");
   if (!words || *words != nullptr) return words;
+  if (!owner.empty()) {
+    return make_error(Code::not_found,
+                      "no tier holds what " + in_quotes(speaker) + " says; " + tier_list(grid));
+  }
+  Tiers intervals;
+  for (const TextGridTier& tier : grid.tiers) {
+    if (!tier.points) intervals.push_back(&tier);
+  }
+  if (intervals.size() == 1) return intervals[0];
   return make_error(Code::not_found,
                     "the file has no tier named phones, phone, phonemes or words; name the one to "
-                    "read (--tier): " +
+                    "read by its name or number (--tier): " +
                         tier_list(grid));
 }
 
-bool is_word_tier(const TextGridTier& tier) {
-  const std::string own = lower_case(trimmed(tier.name));
-  return std::any_of(std::begin(kWordTiers), std::end(kWordTiers), [&](std::string_view name) {
-    return own == name || own.ends_with(" - " + std::string(name));
-  });
+bool has_name_of(const TextGridTier& tier, std::span<const std::string_view> names) {
+  return std::any_of(names.begin(), names.end(),
+                     [&](std::string_view name) { return owner_of(tier, name).has_value(); });
 }
+
+bool is_word_tier(const TextGridTier& tier) { return has_name_of(tier, kWordTiers); }
 
 // "Ann - phones" wants "Ann - words".
 const TextGridTier* choose_words(const TextGrid& grid, const TextGridTier& phones) {
-  const std::string own = lower_case(trimmed(phones.name));
-  const std::size_t dash = own.rfind(" - ");
-  const std::string speaker = dash == std::string::npos ? "" : own.substr(0, dash + 3);
+  std::string speaker;
+  for (const auto names : {std::span<const std::string_view>(kPhoneTiers),
+                           std::span<const std::string_view>(kSpellingTiers)}) {
+    for (const std::string_view name : names) {
+      if (const auto owner = owner_of(phones, name)) speaker = *owner;
+    }
+  }
   for (const std::string_view name : kWordTiers) {
     for (const TextGridTier& tier : grid.tiers) {
-      if (lower_case(trimmed(tier.name)) == speaker + std::string(name) && !tier.points)
-        return &tier;
+      if (owner_of(tier, name) == speaker && !tier.points) return &tier;
     }
   }
   return nullptr;
+}
+
+// "b Q b" shares the time of its word.
+void spread_spellings(std::vector<TimedLabel>& labels) {
+  constexpr std::size_t kMostBytes = 1024;
+  std::vector<TimedLabel> out;
+  for (TimedLabel& label : labels) {
+    std::vector<std::string> phones;
+    bool known = !is_silence_spelling(label.label) && !is_mark(label.label);
+    std::string_view rest = label.label;
+    while (known && !rest.empty()) {
+      const std::size_t end = std::min(rest.find(' '), rest.size());
+      const auto sounds = parse_ipa(rest.substr(0, end), kMostBytes);
+      known = sounds.has_value();
+      if (!known) break;
+      for (const IpaPhone& sound : *sounds) phones.emplace_back(sound.label);
+      rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    if (!known) {
+      out.push_back(std::move(label));
+      continue;
+    }
+    const std::size_t first = out.size();
+    spread_phones(label, phones, out);
+    for (std::size_t i = first; i < out.size(); ++i) out[i].word.clear();
+  }
+  labels = std::move(out);
 }
 
 // The words are in time order in every sane file; in others a word may be missed, no more.
@@ -111,7 +200,8 @@ bool looks_like_textgrid(std::string_view text) {
 }
 
 Result<Timings> labels_of_tier(const TextGrid& grid, const ScriptOptions& options) {
-  const auto chosen = options.tier.empty() ? choose_tier(grid) : choose_named(grid, options.tier);
+  const auto chosen =
+      options.tier.empty() ? choose_tier(grid, options.speaker) : choose_named(grid, options.tier);
   if (!chosen) return chosen.error();
   const TextGridTier& tier = **chosen;
   if (tier.points) {
@@ -119,14 +209,26 @@ Result<Timings> labels_of_tier(const TextGrid& grid, const ScriptOptions& option
                       "tier " + in_quotes(tier.name) + " holds points; phones need intervals");
   }
   Timings timings;
+  timings.notes = grid.notes;
   for (const TextGridItem& item : tier.items) {
-    timings.labels.push_back(
-        {item.start, item.end, std::string(trimmed(item.text)), {}, item.line, item.column, false});
+    timings.labels.push_back({item.start,
+                              item.end,
+                              std::string(trimmed(item.text)),
+                              {},
+                              item.line,
+                              item.column,
+                              false,
+                              Alphabet::automatic,
+                              options.speaker});
   }
-  const bool named = options.tier.empty() || is_word_tier(tier);
-  const LabelUnit by_name = is_word_tier(tier) ? LabelUnit::words : LabelUnit::phones;
-  decide_unit(timings.labels,
-              named && options.unit == LabelUnit::automatic ? by_name : options.unit);
+  LabelUnit unit = options.unit;
+  if (unit == LabelUnit::automatic && is_word_tier(tier)) unit = LabelUnit::words;
+  if (unit == LabelUnit::automatic && has_name_of(tier, kPhoneTiers)) unit = LabelUnit::phones;
+  if (unit == LabelUnit::automatic && has_name_of(tier, kSpellingTiers)) {
+    spread_spellings(timings.labels);
+    unit = LabelUnit::phones;
+  }
+  decide_unit(timings.labels, unit);
   if (!has_words(timings)) {
     if (const TextGridTier* words = choose_words(grid, tier)) add_words(timings.labels, *words);
   }

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "dam/script/script.h"
+#include "dam/script/script_readers_internal.h"
 #include "dam/script/script_text_internal.h"
 #include "dam/script/script_values_internal.h"
 
@@ -50,10 +51,14 @@ struct Spoken {
   std::string_view text;
 };
 
+bool names_words(const Script& script) {
+  return std::any_of(script.phones.begin(), script.phones.end(),
+                     [](const Phone& phone) { return !phone.word.empty(); });
+}
+
 // What is said without a pause.
 std::vector<std::vector<Spoken>> phrases_of(const Script& script) {
-  const bool words = std::any_of(script.phones.begin(), script.phones.end(),
-                                 [](const Phone& phone) { return !phone.word.empty(); });
+  const bool words = names_words(script);
   std::vector<std::vector<Spoken>> phrases;
   bool pause = true;
   for (const Phone& phone : script.phones) {
@@ -88,7 +93,8 @@ std::string write_pho(const Script& script) {
 }
 
 std::string write_webvtt(const Script& script) {
-  std::string out = "WEBVTT\n";
+  const bool words = names_words(script);
+  std::string out = std::string(words ? "WEBVTT" : kPhonesHeader) + "\n";
   for (const auto& phrase : phrases_of(script)) {
     out += "\n" + clock(phrase.front().start) + " --> " + clock(phrase.back().end) + "\n";
     for (const Spoken& spoken : phrase) {

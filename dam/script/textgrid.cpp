@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dam/script/script_finish_internal.h"
 #include "dam/script/script_values_internal.h"
 #include "fap/detail/real_text.h"
 
@@ -126,6 +127,13 @@ class Parser {
 
   double number(std::string_view what) { return take(TokenKind::number, what).number; }
 
+  /// What comes next; the end where nothing can be read.
+  TokenKind next_kind() const {
+    Tokens ahead = tokens_;
+    const auto token = failed_ ? Token{} : ahead.next();
+    return token ? token->kind : TokenKind::number;  // whoever takes it gets the error
+  }
+
   void fail(Error error) {
     if (!failed_) error_ = std::move(error);
     failed_ = true;
@@ -139,11 +147,20 @@ class Parser {
   Error error_;
 };
 
-// Counts are only claims: a file of three lines can claim a billion. So nothing is reserved and
-// the loop ends with the text.
+// Counts are only claims: a file of three lines can claim a billion, and who edits a file by hand
+// forgets them. An interval begins with a number, a tier with a string.
 bool is_count(double value) { return value >= 0 && value <= 1e9 && value == std::floor(value); }
 
-TextGridTier read_tier(Parser& parser) {
+void compare_counts(const std::string& what, double claimed, std::size_t held, std::int64_t line,
+                    std::vector<ScriptNote>& notes) {
+  if (claimed == double(held)) return;
+  add_note(notes, ScriptNote::Kind::counts,
+           what + " says that it has " + format_seconds(claimed) + " entries and holds " +
+               std::to_string(held) + "; these are read",
+           line);
+}
+
+TextGridTier read_tier(Parser& parser, std::vector<ScriptNote>& notes) {
   TextGridTier tier;
   const Token type = parser.take(TokenKind::string, "the type of a tier (\"IntervalTier\")");
   tier.points = type.text == "TextTier";
@@ -155,12 +172,13 @@ TextGridTier read_tier(Parser& parser) {
   tier.name = parser.take(TokenKind::string, "the name of a tier").text;
   parser.number("the start of a tier");
   parser.number("the end of a tier");
-  const double count = parser.number("the number of intervals");
+  const Token counted = parser.take(TokenKind::number, "the number of intervals");
+  const double count = counted.number;
   if (!is_count(count)) {
     parser.fail(make_error(Code::syntax, "the number of intervals of tier " + in_quotes(tier.name) +
                                              " is not a whole number"));
   }
-  for (double i = 0; i < count && !parser.failed(); ++i) {
+  while (!parser.failed() && parser.next_kind() == TokenKind::number) {
     TextGridItem item;
     item.start = parser.number("a time");
     item.end = tier.points ? item.start : parser.number("the end of an interval");
@@ -169,6 +187,9 @@ TextGridTier read_tier(Parser& parser) {
     item.line = text.line;
     item.column = text.column;
     if (!parser.failed()) tier.items.push_back(std::move(item));
+  }
+  if (!parser.failed()) {
+    compare_counts("tier " + in_quotes(tier.name), count, tier.items.size(), counted.line, notes);
   }
   return tier;
 }
@@ -220,10 +241,16 @@ Result<TextGrid> parse_textgrid(std::string_view utf8) {
   grid.end = parser.number("the end time");
   const Token flag = parser.take(TokenKind::flag, "<exists>");
   if (!parser.failed() && flag.text == "<absent>") return grid;
-  const double count = parser.number("the number of tiers");
+  const Token counted = parser.take(TokenKind::number, "the number of tiers");
+  const double count = counted.number;
   if (!is_count(count)) parser.fail(make_error(Code::syntax, "the number of tiers is invalid"));
-  for (double i = 0; i < count && !parser.failed(); ++i) grid.tiers.push_back(read_tier(parser));
+  const bool any = !parser.failed() && count > 0;  // a file that holds none was cut
+  while (!parser.failed() &&
+         ((any && grid.tiers.empty()) || parser.next_kind() != TokenKind::end)) {
+    grid.tiers.push_back(read_tier(parser, grid.notes));
+  }
   if (parser.failed()) return parser.error();
+  compare_counts("the file", count, grid.tiers.size(), counted.line, grid.notes);
   return grid;
 }
 

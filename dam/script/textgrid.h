@@ -37,16 +37,19 @@ struct TextGrid {
   double start = 0;                 ///< seconds
   double end = 0;                   ///< seconds
   std::vector<TextGridTier> tiers;  ///< in the order of the file
+  std::vector<ScriptNote> notes;    ///< counts of the file that disagree with what it holds
 };
 
-/// Reads the text form from UTF-8 (see to_utf8() for other encodings). Order and overlaps of times
-/// are not checked. Errors with line: syntax, out_of_range (a number that is not finite), truncated
+/// Reads the text form from UTF-8 (see to_utf8() for other encodings). All tiers and entries that
+/// are there are read, whatever number of them the file claims. Order and overlaps of times are not
+/// checked. Errors with line: syntax, out_of_range (a number that is not finite), truncated
 /// (the text ends early), unsupported (a binary file).
 Result<TextGrid> parse_textgrid(std::string_view utf8);
 
-/// The labels of one tier: options.tier, or the phones with their words, or the words alone, by the
-/// names in script.h. Points are not labels. Errors: not_found (no such tier, none of these names,
-/// several; the message has all names), unsupported (a tier of points).
+/// The labels of one tier: options.tier (its name in any case, or its number from 1), else that of
+/// options.speaker, or the phones with their words, or the words alone, by the names in script.h,
+/// or the only one that holds intervals. Points are not labels. Errors: not_found (no such tier,
+/// none of these names, several; the message has all names), unsupported (a tier of points).
 Result<Timings> labels_of_tier(const TextGrid& grid, const ScriptOptions& options = {});
 
 /// The tiers "words" and "phones" of a script; silence has an empty text.

@@ -31,15 +31,18 @@ struct TimedLabel {
   std::int64_t column = 0;  ///< in the line, in bytes from 1; 0: unknown
   bool is_word = false;     ///< a word, or several separated by spaces, instead of a phone
   Alphabet alphabet = Alphabet::automatic;  ///< of a phone; automatic: that of Timings
+  std::string speaker;                      ///< who says it; empty: unknown
 
   friend bool operator==(const TimedLabel&, const TimedLabel&) = default;
 };
 
-/// The labels of a file, normally ascending; nothing has been checked yet.
+/// The labels of a file, normally ascending. Their times have not been checked yet; marks are empty
+/// labels, and words do not overlap.
 struct Timings {
   std::string_view format;  ///< name of the format, see text_script_formats(); static storage
   Alphabet alphabet = Alphabet::automatic;  ///< of the labels that are phones
-  std::vector<TimedLabel> labels;           ///< in the order of the file
+  std::vector<TimedLabel> labels;           ///< in the order of the file; those of words by time
+  std::vector<ScriptNote> notes;            ///< what was left out or read otherwise
 };
 
 /// A script format.

@@ -18,7 +18,7 @@ struct ExportOptions {
   std::string audio;                      ///< --audio
   std::string what;                       ///< --what
   std::string script;                     ///< --script
-  speech::ScriptInput reading;            ///< --tier, --script-format, --lang
+  speech::ScriptInput reading;            ///< --tier, --speaker, --script-format ...
   std::string rate = "25";                ///< --rate
   std::string format;                     ///< --format, of Rhubarb
   std::string dialog_file;                ///< --dialog-file

@@ -62,8 +62,12 @@ Result<dam::Script> script_for(const std::string& path, const std::vector<std::s
 
 void add_script_options(OptionTable& cli, dam::ScriptOptions& reading) {
   cli.add("--tier", reading.tier,
-          "Tier of the script, or recording of the table, if it has several")
+          "Tier of the script (its name or number), or recording of the table, if it has several")
       ->value("NAME");
+  cli.add("--speaker", reading.speaker, "Read what this speaker says, if the script names speakers")
+      ->value("NAME");
+  cli.add("--speak-marks", reading.speak_marks,
+          "Say marks such as [noise], <unk> and (laughs) as words; else they are silence");
   cli.add("--script-format", parsed<parse_script_format>(reading),
           "Format of the script, NAME[:words][@RATE], if it cannot be detected; help prints "
           "a list")

@@ -1,5 +1,5 @@
 /// @file
-/// The options of commands that read a script: which of its tiers, and in what format it is.
+/// The options of commands that read a script: which of its tiers and speakers, and in what format.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ namespace animeme::tools {
 
 struct OptionTable;
 
-/// Adds --tier and --script-format.
+/// Adds --tier, --speaker, --speak-marks and --script-format.
 void add_script_options(OptionTable& cli, dam::ScriptOptions& reading);
 
 /// The same for commands that have no --lang: adds it for words that come without phones.

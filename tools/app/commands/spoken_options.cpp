@@ -57,8 +57,9 @@ void add_spoken_options(OptionTable& cli, speech::SpokenOptions& options) {
 std::string missing_options(const speech::SpokenOptions& options) {
   const dam::ScriptOptions& reading = options.script_reading;
   if (options.script.empty() && options.tts.empty() &&
-      !(reading.tier.empty() && reading.format.empty())) {
-    return "--tier and --script-format are for --script, and for the timed phones of --tts";
+      !(reading.tier.empty() && reading.format.empty() && reading.speaker.empty())) {
+    return "--tier, --speaker and --script-format are for --script, and for the timed phones of "
+           "--tts";
   }
   if (options.has_transcript && options.audio.empty()) return "--transcript requires --audio";
   if (has_source(options)) return {};

@@ -10,7 +10,8 @@ namespace animeme::tools {
 
 struct OptionTable;
 
-/// Adds --text, --text-file, --script, --tier, --script-format, --audio, --transcript, --lang,
+/// Adds --text, --text-file, --script, --tier, --speaker, --speak-marks, --script-format, --audio,
+/// --transcript, --lang,
 /// --speed, --pitch.
 void add_spoken_options(OptionTable& cli, speech::SpokenOptions& options);
 

@@ -143,7 +143,8 @@ void add_options(OptionTable& cli, StreamOptions& options) {
   cli.add("--json", options.json, "Print a machine-readable summary at the end");
   cli.show_in_help_all(
       "Voices, coding and transport",
-      "--tier --script-format --max-seconds --speed --pitch --seed --mtu --repeat --repeat-after "
+      "--tier --speaker --speak-marks --script-format --max-seconds --speed --pitch --seed --mtu "
+      "--repeat --repeat-after "
       "--bundle --max-clients --max-per-address --allow-origin --host-name --delay --intra-seconds "
       "--points --gain --copy --quant --sharpness --articulate --audio-codec --audio-bitrate");
 }

@@ -75,6 +75,8 @@ Result<Json> describe_model(std::span<const std::uint8_t> bytes) {
 
 Result<Json> describe_script(const dam::Timings& timings) {
   Json json = {{"kind", "script"}, {"format", timings.format}};
+  if (!timings.notes.empty())
+    json["warnings"] = tools::json_list(timings.notes, &dam::ScriptNote::describe);
   if (dam::has_words(timings)) {
     json["words"] = timings.labels.size();
     json["seconds"] = timings.labels.back().end;

@@ -109,8 +109,9 @@ Result<dam::Timings> read_json(std::string_view text, const dam::ScriptOptions& 
     return error;
   }
   place_labels(text, documents->offsets, out.paths, out.labels, nullptr);
-  dam::Timings timings{(*format)->shown.name, out.alphabet, std::move(out.labels)};
+  dam::Timings timings{(*format)->shown.name, out.alphabet, std::move(out.labels), {}};
   if (options.alphabet != dam::Alphabet::automatic) timings.alphabet = options.alphabet;
+  if (auto kept = dam::finish_labels(timings, options, (*format)->unit); !kept) return kept.error();
   return timings;
 }
 

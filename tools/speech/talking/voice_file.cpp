@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "dam/script/script_finish_internal.h"
 #include "dam/script/script_text_internal.h"
 #include "dam/script/textgrid.h"
 #include "tools/formats/files/files.h"
@@ -24,6 +25,7 @@ namespace {
 Result<dam::Script> script_of(Result<dam::Timings> timings, const std::string& path,
                               const ScriptInput& input, const tools::Log& log, bool* from_words) {
   if (!timings) return timings.error().in_file(path);
+  for (const dam::ScriptNote& note : timings->notes) log.warn(path + ": " + note.describe());
   if (from_words != nullptr) *from_words = dam::has_words(*timings);
   if (dam::has_words(*timings)) {
     std::vector<std::string> warnings;
@@ -54,7 +56,8 @@ bool is_ours(const media::TextTrack& track) {
 }
 
 // Tracks of a file are tiers by another name.
-dam::TextGrid grid_of(const std::vector<media::TextTrack>& tracks) {
+Result<dam::Timings> labels_of(const std::vector<media::TextTrack>& tracks,
+                               const dam::ScriptOptions& reading) {
   dam::TextGrid grid;
   for (const media::TextTrack& track : tracks) {
     dam::TextGridTier& tier = grid.tiers.emplace_back();
@@ -63,7 +66,11 @@ dam::TextGrid grid_of(const std::vector<media::TextTrack>& tracks) {
       tier.items.push_back({cue.start, cue.end, cue.text, 0, 0});
     }
   }
-  return grid;
+  auto timings = dam::labels_of_tier(grid, reading);
+  if (!timings) return timings.error();
+  const auto done = dam::finish_labels(*timings, reading, dam::TimeUnit::known);
+  if (!done) return done.error();
+  return timings;
 }
 
 // By the first bytes of a file that can be read again.
@@ -110,7 +117,7 @@ std::optional<dam::Script> carried_script(const std::string& path, const ScriptI
   const std::vector<media::TextTrack> tracks = carried_tracks(path, log);
   if (tracks.empty()) return std::nullopt;
   Result<dam::Script> script =
-      script_of(dam::labels_of_tier(grid_of(tracks), input.reading), path, input, log, nullptr);
+      script_of(labels_of(tracks, input.reading), path, input, log, nullptr);
   if (script) return std::move(*script);
   log.warn("its words are ignored: " + script.error().describe());
   return std::nullopt;
@@ -125,8 +132,7 @@ Result<dam::Script> read_script(const std::string& path, const ScriptInput& inpu
       return make_error(Code::not_found, "the file contains neither words nor phones")
           .in_file(path);
     }
-    return script_of(dam::labels_of_tier(grid_of(*tracks), input.reading), path, input, log,
-                     from_words);
+    return script_of(labels_of(*tracks, input.reading), path, input, log, from_words);
   }
   const Result<std::string> text = tools::read_text_file(path, tools::kMostWritten);
   if (!text) return text.error();

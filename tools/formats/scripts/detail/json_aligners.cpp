@@ -227,13 +227,17 @@ Result<void> read_kokoro(const std::vector<Node>& roots, const dam::ScriptOption
 }
 
 constexpr JsonFormat kAligners[] = {
-    {{"mfa", "Montreal Forced Aligner"}, is_mfa, read_mfa},
+    {{"mfa", "Montreal Forced Aligner"}, is_mfa, read_mfa, dam::TimeUnit::assumed},
     {{"rhubarb", "mouth cues of Rhubarb Lip Sync"}, is_rhubarb, read_rhubarb},
-    {{"gentle", "Gentle"}, is_gentle, read_gentle},
-    {{"kokoro", "tokens of Kokoro with their phonemes"}, is_kokoro, read_kokoro},
+    {{"gentle", "Gentle"}, is_gentle, read_gentle, dam::TimeUnit::assumed},
+    {{"kokoro", "tokens of Kokoro with their phonemes"},
+     is_kokoro,
+     read_kokoro,
+     dam::TimeUnit::assumed},
     {{"words", "words with times: WhisperX, Whisper, Kokoro-FastAPI and the like"},
      is_word_list,
-     read_words},
+     read_words,
+     dam::TimeUnit::assumed},
 };
 
 }  // namespace

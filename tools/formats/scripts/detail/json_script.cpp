@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dam/script/marks.h"
 #include "dam/script/script_text_internal.h"
 #include "dam/script/table_text_internal.h"
 
@@ -96,6 +97,7 @@ Result<std::string> viseme_label(JsonLabels& out, const Node& node, dam::VisemeS
                                  const std::string& name) {
   const auto label = dam::phone_of_viseme(set, name);
   if (label) return std::string(*label);
+  if (dam::is_mark(name)) return name;
   return out.error(Code::not_found, "unknown viseme \"" + name.substr(0, 40) + "\"", node);
 }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "dam/script/script_finish_internal.h"
 #include "dam/script/timings.h"
 #include "dam/script/viseme_phones.h"
 #include "fap/result.h"
@@ -79,6 +80,7 @@ struct JsonFormat {
   bool (*looks_like)(const std::vector<Node>& roots);
   Result<void> (*read)(const std::vector<Node>& roots, const dam::ScriptOptions& options,
                        JsonLabels& out);
+  dam::TimeUnit unit = dam::TimeUnit::known;
 };
 
 std::span<const JsonFormat> aligner_formats();  ///< Montreal, Gentle, Rhubarb, WhisperX, Kokoro

@@ -1,0 +1,155 @@
+#include "dam/script/marks.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "dam/script/phones.h"
+#include "dam/script/script_text_internal.h"
+
+namespace animeme::dam {
+namespace {
+
+// Names of SPPAS, Kaldi and TIMIT that are words nowhere.
+constexpr std::string_view kMarkNames[] = {"gb", "spn", "nsn", "brth", "vocnoise", "blank_audio"};
+
+// What phones are never called. Lower case.
+constexpr std::string_view kPhoneMarks[] = {"@@",   "*",    "+",   "fp",     "lg",  "lau",  "unk",
+                                            "oov",  "usb",  "nib", "dummy",  "xxx", "yyy",  "hes",
+                                            "fil",  "iver", "bkg", "bn",     "gbg", "crap", "inh",
+                                            "lips", "lip",  "exh", "cutoff", "sta", "int",  "err"};
+// Nor anything that one of these is a part of.
+constexpr std::string_view kPhoneMarkParts[] = {"noise",   "laugh", "breath", "cough",    "music",
+                                                "garbage", "click", "smack",  "unknown",  "filler",
+                                                "silence", "trans", "pause",  "exclude",  "speech",
+                                                "inhale",  "exhal", "sigh",   "unintell", "inaud"};
+
+// How the words for sounds that people make, and for what is not understood, begin.
+constexpr std::string_view kSoundStems[] = {
+    "laugh",   "giggl",     "chuckl", "sigh",    "cough",   "sniff",       "sob",    "gasp",
+    "groan",   "grunt",     "cries",  "crying",  "clears",  "clearing",    "breath", "inhal",
+    "exhal",   "snort",     "scream", "whisper", "yawn",    "humming",     "hums",   "whistl",
+    "applau",  "music",     "noise",  "silence", "pause",   "click",       "beep",   "inaudib",
+    "unintel", "crosstalk", "cheer",  "clap",    "snicker", "moan",        "sneez",  "gulp",
+    "swallow", "shout",     "mumbl",  "murmur",  "pant",    "blank_audio", "smack",  "snor",
+    "chatter", "indistinct"};
+
+constexpr std::size_t kLongestMark = 200;  // bytes; what is longer is an aside
+
+char closing_bracket(char open) {
+  switch (open) {
+    case '[':
+      return ']';
+    case '(':
+      return ')';
+    case '{':
+      return '}';
+    case '<':
+      return '>';
+    case '*':
+      return '*';
+    default:
+      return 0;
+  }
+}
+
+bool is_letter_or_digit(char c) {
+  const auto byte = static_cast<unsigned char>(c);
+  return byte >= 0x80 || (byte >= '0' && byte <= '9') ||
+         ((byte | 0x20) >= 'a' && (byte | 0x20) <= 'z');
+}
+
+// "clears throat", "LAUGHTER", "speaks softly, sighs".
+bool names_a_sound(std::string_view inside) {
+  const std::string text = lower_case(inside);
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    if (!is_letter_or_digit(text[at]) || (at > 0 && is_letter_or_digit(text[at - 1]))) continue;
+    const std::string_view word = std::string_view(text).substr(at);
+    for (const std::string_view stem : kSoundStems) {
+      if (word.starts_with(stem)) return true;
+    }
+  }
+  return false;
+}
+
+bool is_known_mark(std::string_view inside) {
+  return names_a_sound(inside) || lower_case(inside) == "unk";
+}
+
+// Where the mark that begins at `at` ends, one behind its last character; 0: none begins there.
+std::size_t end_of_mark(std::string_view text, std::size_t at, MarksOf from) {
+  const char open = text[at], close = closing_bracket(open);
+  if (close == 0) return 0;
+  int depth = 0;
+  const std::size_t last = std::min(text.size(), at + kLongestMark);
+  for (std::size_t i = at; i < last; ++i) {
+    const bool ends = text[i] == close && (open != close || i > at);
+    if (!ends) {
+      depth += text[i] == open ? 1 : 0;
+      continue;
+    }
+    if (--depth > 0) continue;
+    const std::string_view inside = text.substr(at + 1, i - at - 1);
+    const bool all = from == MarksOf::captions && open != '*' && trimmed(inside).size() > 0;
+    return all || is_known_mark(inside) ? i + 1 : 0;
+  }
+  return 0;
+}
+
+// "++NOISE++", "+SPN+".
+bool is_between(std::string_view label, char sign) {
+  const std::size_t first = label.find_first_not_of(sign), last = label.find_last_not_of(sign);
+  return first != std::string_view::npos && first > 0 && last + 1 < label.size();
+}
+
+bool lists(std::span<const std::string_view> list, std::string_view name) {
+  return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+}  // namespace
+
+bool is_mark(std::string_view label) {
+  label = trimmed(label);
+  if (label.size() < 2 || is_silence_spelling(label)) return false;
+  if (lists(kMarkNames, label) || lists(kMarkNames, lower_case(label).substr(0, 16))) {
+    return label != "GB";  // of memory
+  }
+  const char close = closing_bracket(label[0]);
+  if (close != 0 && label.back() == close && label.size() > 2) {
+    // "(a) or (b)" is none.
+    const std::size_t end = label.find(close, 1);
+    const bool whole = end + 1 == label.size() || label.find(label[0], 1) < end;
+    if (whole) return true;
+  }
+  return is_between(label, '+') || label.starts_with("&=") || label.starts_with("%%");
+}
+
+bool is_mark_among_phones(std::string_view label) {
+  if (is_mark(label)) return true;
+  std::string name = lower_case(trimmed(label.substr(0, 64)));
+  // Kaldi says where in a word.
+  if (name.size() > 2 && name[name.size() - 2] == '_') name.resize(name.size() - 2);
+  while (name.size() > 2 && name.back() >= '0' && name.back() <= '9') name.pop_back();
+  if (lists(kMarkNames, name) || lists(kPhoneMarks, name)) return true;
+  // A recording that nobody could cut is not closed either: "[loud".
+  if (name.size() > 2 && (name[0] == '[' || name[0] == '<' || name[0] == '%')) return true;
+  return std::any_of(std::begin(kPhoneMarkParts), std::end(kPhoneMarkParts),
+                     [&](std::string_view part) { return name.find(part) != std::string::npos; });
+}
+
+Unmarked without_marks(std::string_view text, MarksOf from) {
+  Unmarked out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = end_of_mark(text, at, from);
+    if (end == 0) {
+      out.text += text[at++];
+      continue;
+    }
+    if (out.count++ == 0) out.mark = text.substr(at, end - at);
+    at = end;
+    const bool blank = out.text.empty() || out.text.back() == ' ' || out.text.back() == '\n';
+    while (blank && at < text.size() && text[at] == ' ') ++at;
+  }
+  return out;
+}
+
+}  // namespace animeme::dam

@@ -1,0 +1,30 @@
+// What is done with the labels of every format: marks, speakers, words that overlap, units.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dam/script/timings.h"
+
+namespace animeme::dam {
+
+/// Counts one more of a kind; the first of it gives message and line.
+void add_note(std::vector<ScriptNote>& notes, ScriptNote::Kind kind, std::string_view message,
+              std::int64_t line);
+
+/// The note about a mark.
+void note_mark(std::vector<ScriptNote>& notes, std::string_view mark, std::int64_t line);
+
+/// What a format says about its times.
+enum class TimeUnit : std::uint8_t {
+  assumed,  ///< its numbers are seconds if nothing speaks against it
+  known,    ///< its header, its syntax or its names say the unit
+};
+
+/// Keeps the speaker of the options, takes marks for silence, leaves out labels that take no time,
+/// sorts words and ends them where the next begin, finds times in milliseconds.
+/// Error: not_found (no such speaker; the message names those of the file).
+Result<void> finish_labels(Timings& timings, const ScriptOptions& options, TimeUnit unit);
+
+}  // namespace animeme::dam
