@@ -2,55 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <optional>
+#include <cstdio>
+#include <numeric>
 
 #include "dam/corpus/statistics_internal.h"
 #include "dam/speaking/synthesise.h"
-#include "dam/training/accumulate.h"
 #include "dam/training/adapt_internal.h"
 #include "dam/training/alignment.h"
-#include "dam/training/train.h"
 #include "dam/training/train_notes_internal.h"
-#include "dam/training/training_sums_internal.h"
 
 namespace animeme::dam {
 namespace {
 
-/// With so many sentences the first fold alone is enough.
-constexpr std::size_t kManySentences = 100;
-/// Factors of the ridges that are tried: what is left of a stranger is held more firmly than what
-/// is all.
-constexpr double kRidges[] = {1, 4, 20, 100};
-
-using Sentences = std::vector<const Utterance*>;
-using Signals = std::vector<const Signal*>;
-
-/// The own sentences, in an order that does not depend on how they were given, spoken by the base.
-struct Material {
-  std::vector<Utterance> sentences;  ///< with phones of the base
-  std::vector<Signal> made;
-
-  std::pair<Sentences, Signals> part(std::size_t fold, std::size_t folds, bool inside) const {
-    std::pair<Sentences, Signals> out;
-    for (std::size_t s = 0; s < sentences.size(); ++s) {
-      if ((folds > 0 && s % folds == fold) != inside) continue;
-      out.first.push_back(&sentences[s]);
-      out.second.push_back(&made[s]);
-    }
-    return out;
-  }
-};
-
-SynthesisOptions as_learned(const Signal& like) {
-  SynthesisOptions options;
-  options.rate = like.rate;
-  options.frames = like.frames();
-  options.closure = false;
-  options.sharpness = 0;
-  options.rest_at_ends = false;
-  return options;
-}
+/// Factors of the ridges that are tried.
+constexpr double kRidges[] = {1, 4, 20};
+/// Errors above this share of a still face's are reported.
+constexpr double kHardlyBetter = 0.98;
 
 Result<void> check(const Utterance& u, const Utterance& first) {
   const auto bad = [&](const char* what) {
@@ -79,102 +46,25 @@ Result<Material> material_of(const Model& base, std::span<const Utterance* const
   return material;
 }
 
-/// Sums over what the base leaves over.
-Result<TrainingSums> sums_of_rest(const Model& base, const Sentences& sentences,
-                                  const Signals& made, const Telling& telling,
-                                  const TrainOptions& options) {
-  auto sums = TrainingSums::start(options, &base);
-  if (!sums) return sums;
-  auto state = std::move(*sums).release();
-  for (std::size_t s = 0; s < sentences.size(); ++s) {
-    Utterance rest{sentences[s]->id, "", sentences[s]->script, {}, {}};
-    rest.signal = rest_of(sentences[s]->signal, *made[s], telling);
-    if (auto added = add_to_sums(*state, rest, sentence_digest(rest)); !added) return added.error();
+/// The better of the base and of own curves is kept, so what remains to be said is that.
+void warn_of_little_use(AdaptReport& report) {
+  if (report.error.nrmse == 0) return;
+  char text[240];
+  if (report.base_share == 0) {
+    std::snprintf(text, sizeof text,
+                  "the base does not help on held-out sentences (NRMSE %.3f with it, %.3f without "
+                  "it), so the model is of these sentences alone",
+                  report.base_error.nrmse, report.own_error.nrmse);
+    report.warnings.emplace_back(text);
   }
-  return TrainingSums(std::move(state));
-}
-
-Result<Model> solved(const TrainingSums& sums, TrainOptions options, double ridge) {
-  options.method = Method::dam;
-  options.refined.ridge = ridge;
-  return train_from_sums(TrainingSums(std::make_unique<SumsState>(sums.state())), options);
-}
-
-/// Squared error as a share of the variance in `scale`, mean over the controls that move; what a
-/// sentence is off as a whole does not count.
-double error_of(const Model& model, const Sentences& sentences, std::span<const Control> scale) {
-  const std::size_t k = model.controls.size();
-  std::vector<double> error(k, 0.0);
-  double frames = 0;
-  for (const Utterance* u : sentences) {
-    const auto made = synthesise(model, u->script, as_learned(u->signal));
-    const auto speech = speech_frames(*u);
-    std::vector<double> sum(k, 0.0), squares(k, 0.0);
-    double count = 0;
-    for (std::size_t i = 0; made && i < speech.size(); ++i) {
-      if (!speech[i]) continue;
-      count += 1;
-      for (std::size_t c = 0; c < k; ++c) {
-        const double d = u->signal.at(i, c) - made->at(i, c);
-        sum[c] += d;
-        squares[c] += d * d;
-      }
-    }
-    frames += count;
-    for (std::size_t c = 0; c < k; ++c)
-      error[c] += squares[c] - sum[c] * sum[c] / std::max(1.0, count);
+  if (report.error.nrmse >= kHardlyBetter * report.still_error.nrmse) {
+    std::snprintf(
+        text, sizeof text,
+        "on held-out sentences the model is hardly better than a still face (NRMSE %.3f and "
+        "%.3f): check the scripts and the tracker, or record more",
+        report.error.nrmse, report.still_error.nrmse);
+    report.warnings.emplace_back(text);
   }
-  double total = 0, moving = 0;
-  for (std::size_t c = 0; c < k; ++c) {
-    if (scale[c].sd == 0) continue;
-    moving += 1;
-    total += error[c] / (std::max(1.0, frames) * scale[c].sd * scale[c].sd);
-  }
-  return moving > 0 ? total / moving : 0;
-}
-
-Result<Model> own_alone(const Sentences& sentences, TrainOptions options) {
-  options.method = Method::dam;
-  options.refined.ridge = 0;
-  std::vector<Utterance> copies;
-  for (const Utterance* u : sentences) copies.push_back(*u);
-  return train(copies, options);
-}
-
-/// Chooses by sentences that are left out in turn; 0: the base alone.
-Result<double> choose(const Model& base, const Material& material,
-                      const std::vector<Control>& controls, const TrainOptions& options,
-                      AdaptReport& report, const ProgressFunction& progress) {
-  const std::span<const double> ridges =
-      options.refined.ridge > 0 ? std::span(&options.refined.ridge, 1) : std::span(kRidges);
-  const std::size_t folds = std::min(kFolds, material.sentences.size());
-  if (folds < 2) return ridges.back();
-  const std::size_t tried = material.sentences.size() >= kManySentences ? 1 : folds;
-  double alone = 0;
-  std::vector<double> error(ridges.size(), 0.0);
-  for (std::size_t fold = 0; fold < tried; ++fold) {
-    const auto [in, in_made] = material.part(fold, folds, false);
-    const auto out = material.part(fold, folds, true).first;
-    const Telling telling = tell_base(base, in, in_made);
-    alone += error_of(add_up(base, telling, controls, nullptr), out, controls) / double(tried);
-    const auto own = own_alone(in, options);
-    if (!own) return own.error();
-    report.own_error += error_of(*own, out, controls) / double(tried);
-    const auto sums = sums_of_rest(base, in, in_made, telling, options);
-    if (!sums) return sums.error();
-    for (std::size_t r = 0; r < ridges.size(); ++r) {
-      const double done = (double(fold) + double(r) / double(ridges.size())) / double(tried);
-      if (progress && !progress({"base", done, 0}))
-        return make_error(Code::invalid_argument, "cancelled");
-      const auto more = solved(*sums, options, ridges[r]);
-      if (!more) return more.error();
-      error[r] += error_of(add_up(base, telling, controls, &*more), out, controls) / double(tried);
-    }
-  }
-  const auto best = std::min_element(error.begin(), error.end());
-  report.base_error = alone;
-  report.error = std::min(alone, *best);
-  return *best < alone ? ridges[std::size_t(best - error.begin())] : 0;
 }
 
 std::string joined(const std::string& first, const std::string& second) {
@@ -198,36 +88,39 @@ Result<Model> adapt(const Model& wanted_base, std::span<const Utterance> sentenc
   out = {};
   Model base = wanted_base;
   base.limits.clear();  // they are of its own face
+  base = with_levels(base);
   const CleanedSentences mended = remove_glitches(sorted_sentences(sentences));
   const auto material = material_of(base, mended.sentences);
   if (!material) return material.error();
   out.glitches = mended.glitches;
   const auto [all, made] = material->part(0, 0, false);
   const std::vector<Control> controls = control_statistics(all, base.pause_edge);
-  const Telling telling = tell_base(base, all, made, &out.controls);
+  const Telling telling = tell_base(base, controls, all, made, &out.controls);
   out.sentences = all.size();
   for (const Utterance* u : all) {
     const auto speech = speech_frames(*u);
     out.seconds += u->signal.rate.seconds(double(std::count(speech.begin(), speech.end(), true)));
   }
-  const auto ridge = choose(base, *material, controls, options, out, progress);
-  if (!ridge) return ridge.error();
-  out.ridge = options.refined.ridge > 0 ? options.refined.ridge : *ridge;
+  Ingredients from{base, *material, controls, {std::begin(kRidges), std::end(kRidges)}, {}};
+  if (options.refined.ridge > 0) from.ridges = {options.refined.ridge};
+  auto folds = sums_of_folds(base, *material, std::min(kFolds, all.size()), options);
+  if (!folds) return folds.error();
+  from.folds = std::move(*folds);
+  const auto recipe = choose_recipe(from, options, out, progress);
+  if (!recipe) return recipe.error();
+  out.ridge = recipe->bent_ridge;
+  out.own_ridge = recipe->own_ridge;
+  out.base_share = std::accumulate(recipe->share.begin(), recipe->share.end(), 0.0) /
+                   double(recipe->share.size());
   if (report != nullptr) {
     auto alignment = check_alignment(all, options.threads);
     if (alignment) out.alignment = std::move(*alignment);
     out.warnings = warnings_of(out.alignment, out.glitches);
+    warn_of_little_use(out);
   }
-  std::optional<Model> more;
-  if (out.ridge > 0) {
-    const auto sums = sums_of_rest(base, all, made, telling, options);
-    if (!sums) return sums.error();
-    auto solution = solved(*sums, options, out.ridge);
-    if (!solution) return solution.error();
-    more = std::move(*solution);
-  }
-  Model model = add_up(base, telling, controls, more ? &*more : nullptr);
-  settle_controls(model.controls);
+  auto mixed = mixed_model(from, *recipe, telling, options);
+  if (!mixed) return mixed.error();
+  Model model = std::move(*mixed);
   model.rate = all[0]->signal.rate;
   model.limits = control_limits(all, model.controls);
   model.closure_gap = measured_closure_gap(all);

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "tools/app/commands/evaluate_options.h"
+#include "tools/app/commands/evaluate_speakers.h"
 #include "tools/app/commands/face_stream.h"
 #include "tools/app/commands/page_sound.h"
 #include "tools/app/commands/train_base.h"
@@ -293,6 +294,7 @@ Result<inspect::EvaluationReport> evaluate_all(const EvaluateOptions& options,
 }  // namespace
 
 Result<int> run(const EvaluateOptions& options) {
+  if (!options.speakers.empty()) return run_speakers(options);
   CorpusSettings corpus = options.corpus;
   std::string path = options.system;
   if (options.folds > 0 && !options.tracks.empty())
@@ -332,6 +334,7 @@ const Command kEvaluate{
     "  animeme evaluate a.dam grid_s1 --split test --against b.dam\n"
     "  animeme evaluate me.dam my_corpus --split test --report me.html\n"
     "  animeme evaluate --folds 5 my_corpus\n"
+    "  animeme evaluate builtin grid_others --speakers grid_s1 --split test\n"
     "  animeme evaluate --tracks theirs grid_s1 --split test --json\n"
     "  animeme evaluate a.dam grid_s1 --split test --codec --kbps 2 --max-nrmse 0.6",
     set_up<EvaluateOptions>};

@@ -36,6 +36,29 @@ void add_folds(OptionTable& cli, EvaluateOptions& options) {
       ->at_commas();
 }
 
+void add_speakers(OptionTable& cli, EvaluateOptions& options) {
+  cli.add("--speakers", options.speakers,
+          "Compare training for strangers: warp this corpus of one speaker into others, and score "
+          "a few own sentences alone, the model as it is, and the model adapted to them; the "
+          "model is also scored on each sentence of CORPUS")
+      ->value("DIR")
+      ->excludes("--tracks --folds --against --codec --report --picture");
+  cli.add("--sentences", options.sizes, "With --speakers: own sentences to train on")
+      ->at_commas()
+      ->value("N,N=5,10,20")
+      ->needs("--speakers");
+  cli.add("--copies", options.copies, "With --speakers: number of warped speakers")
+      ->between(1, 64)
+      ->show_default()
+      ->needs("--speakers");
+  cli.add("--base-sentences", options.base_sentences,
+          "With --speakers: in place of the model, a base of another warped speaker for each one, "
+          "trained on at most so many sentences that are not used otherwise")
+      ->value("N")
+      ->between(1, 100000)
+      ->needs("--speakers");
+}
+
 }  // namespace
 
 void add_options(OptionTable& cli, EvaluateOptions& options) {
@@ -45,6 +68,7 @@ void add_options(OptionTable& cli, EvaluateOptions& options) {
   cli.add("--tracks", options.tracks,
           "Instead of the model: folder with ID.csv or ID.fap of another system");
   add_folds(cli, options);
+  add_speakers(cli, options);
   cli.add("--split", options.corpus.split, "Use these rows only, such as test");
   add_lag_option(cli, options.corpus);
   add_corpus_options(cli, options.corpus);
@@ -82,6 +106,8 @@ void add_options(OptionTable& cli, EvaluateOptions& options) {
   cli.add("--json", options.json, "Print a machine-readable result with all tables");
   cli.show_in_help_all("Details of the comparison",
                        "--split-column --controls-folder --closed-gap --draws");
+  cli.show_in_help_all("Comparison of training for strangers",
+                       "--sentences --copies --base-sentences");
 }
 
 }  // namespace animeme::tools

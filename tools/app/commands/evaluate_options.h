@@ -21,19 +21,23 @@ struct EvaluateOptions {
   std::string method = "dam";         ///< --method
   std::string base;                   ///< --base
   std::vector<std::string> controls;  ///< --controls
-  dam::EvaluateOptions evaluate;      ///< --closed-gap, --sharpness, --articulate
-  bool no_closure = false;            ///< --no-closure
-  std::string against;                ///< --against
-  int draws = 1000;                   ///< --draws
-  bool codec = false;                 ///< --codec
-  StreamSettings stream;              ///< --quant, --rms, --kbps
-  std::string picture;                ///< --picture
-  std::string report;                 ///< --report
-  bool json = false;                  ///< --json
-  bool full = false;                  ///< --full
-  double max_nrmse = -1;              ///< --max-nrmse; below 0: any
-  double min_closed = -1;             ///< --min-closed; below 0: any
-  double max_false = -1;              ///< --max-false-per-minute; below 0: any
+  std::string speakers;               ///< --speakers: a corpus to warp
+  std::vector<std::string> sizes = {"5", "10", "20"};  ///< --sentences
+  int copies = 8;                                      ///< --copies
+  int base_sentences = 0;                              ///< --base-sentences
+  dam::EvaluateOptions evaluate;                       ///< --closed-gap, --sharpness, --articulate
+  bool no_closure = false;                             ///< --no-closure
+  std::string against;                                 ///< --against
+  int draws = 1000;                                    ///< --draws
+  bool codec = false;                                  ///< --codec
+  StreamSettings stream;                               ///< --quant, --rms, --kbps
+  std::string picture;                                 ///< --picture
+  std::string report;                                  ///< --report
+  bool json = false;                                   ///< --json
+  bool full = false;                                   ///< --full
+  double max_nrmse = -1;                               ///< --max-nrmse; below 0: any
+  double min_closed = -1;                              ///< --min-closed; below 0: any
+  double max_false = -1;                               ///< --max-false-per-minute; below 0: any
 };
 
 /// Adds them.

@@ -16,6 +16,10 @@ using tools::Json;
 /// A control of which the base explains less than this is named.
 constexpr double kLittle = 0.1;
 
+Json error_json(const dam::HeldOutError& error) {
+  return {{"nrmse", error.nrmse}, {"correlation", error.correlation}};
+}
+
 }  // namespace
 
 std::string adaptation_json(const std::string& output, const std::string& base,
@@ -32,12 +36,15 @@ std::string adaptation_json(const std::string& output, const std::string& base,
                {"utterances", report.sentences},
                {"speech_seconds", report.seconds},
                {"phones", model.phones.size()},
+               {"base_share", report.base_share},
                {"ridge_factor", report.ridge},
+               {"own_ridge_factor", report.own_ridge},
                {"controls", controls}};
-  if (report.error > 0) {
-    json["held_out_error"] = report.error;
-    json["held_out_error_of_base"] = report.base_error;
-    json["held_out_error_of_own_alone"] = report.own_error;
+  if (report.error.nrmse > 0) {
+    json["held_out"] = {{"adapted", error_json(report.error)},
+                        {"base", error_json(report.base_error)},
+                        {"own_alone", error_json(report.own_error)},
+                        {"still", error_json(report.still_error)}};
   }
   json["blanks"] = *Json::parse(blanks_json(left_out));
   json["glitches"] = *Json::parse(glitches_json(report.glitches));
@@ -51,18 +58,19 @@ std::string adaptation_text(const std::string& output, const std::string& base,
   std::string text = format("%zu utterances (%.1f s of speech) on %s, %zu phones, %zu controls\n",
                             report.sentences, report.seconds, base.c_str(), model.phones.size(),
                             report.controls.size());
-  if (report.error > 0)
-    text += format(
-        "cross-validation error: %.1f %% of the variance for the base with gains only, %.1f %% in "
-        "total\n",
-        100 * report.base_error, 100 * report.error);
-  text += report.ridge > 0 ? format("own curves, ridge factor %g\n", report.ridge)
-                           : std::string("no own curves, since they did not help\n");
-  if (report.own_error > 0 && report.own_error < report.error)
-    text += format(
-        "trained on these sentences alone it is %.1f %%: omit --base, unless they lack "
-        "phones\n",
-        100 * report.own_error);
+  if (report.error.nrmse > 0) {
+    const auto one = [](const char* what, const dam::HeldOutError& error) {
+      return format("  %-30s NRMSE %.3f, correlation %.3f\n", what, error.nrmse, error.correlation);
+    };
+    text += "on held-out sentences, offsets kept:\n" + one("this model", report.error) +
+            one("the base with gains", report.base_error) +
+            one("these sentences alone", report.own_error) +
+            format("  %-30s NRMSE %.3f\n", "a still face", report.still_error.nrmse);
+  }
+  text += format("%.0f %% of the base, %.0f %% of own curves", 100 * report.base_share,
+                 100 * (1 - report.base_share));
+  text += report.ridge > 0 ? format("; curves on top of the base, ridge factor %g\n", report.ridge)
+                           : std::string("\n");
   std::string little;
   for (const dam::AdaptedControl& control : report.controls)
     if (control.base < kLittle) little += " " + control.name;
