@@ -8,6 +8,7 @@
 #include "dam/script/phones.h"
 #include "tools/speech/voice/espeak_ipa.h"
 #include "tools/speech/voice/phoneme_table.h"
+#include "tools/speech/voice/voice.h"
 
 namespace animeme::voice {
 namespace symbols_test {
@@ -74,6 +75,37 @@ TEST(EspeakIpa, MeansWhatTheVoiceSays) {
   EXPECT_EQ(meant_ipa("sit/yue", "eoi"), "ɵy");
   EXPECT_EQ(meant_ipa("aav/vi", "yə"), "ɨə");
   EXPECT_EQ(meant_ipa("", ""), "");
+}
+
+TEST(EspeakIpa, TheMoraicNOfJapaneseTakesThePlaceOfWhatFollows) {
+  EXPECT_EQ(meant_ipa("jpx/ja", "ũ", "p"), "m");
+  EXPECT_EQ(meant_ipa("jpx/ja", "ˈũ", "ˈb"), "ˈm");
+  EXPECT_EQ(meant_ipa("jpx/ja", "ũ", "dʑ"), "n");
+  EXPECT_EQ(meant_ipa("jpx/ja", "ũ", "k"), "ŋ");
+  EXPECT_EQ(meant_ipa("jpx/ja", "ũ", "s"), "ɴ");
+  EXPECT_EQ(meant_ipa("jpx/ja", "ũ"), "ɴ");
+  EXPECT_EQ(meant_ipa("roa/pt", "ũ", "s"), "ũ");
+}
+
+std::string joined(const std::vector<std::string>& labels) {
+  std::string all;
+  for (const std::string& label : labels) all += (all.empty() ? "" : " ") + label;
+  return all;
+}
+
+TEST(EspeakIpa, JapaneseWordsWithIt) {
+  VoiceOptions options;
+  options.language = "ja";
+  const auto spoken = pronounce({"ほんとう", "さんねん", "せんせい", "さんぽ", "かんじ", "さんか"}, options);
+  if (!spoken && spoken.error().code == Code::unsupported) GTEST_SKIP() << spoken.error().describe();
+  ASSERT_TRUE(spoken) << spoken.error().describe();
+  // No lip rounding (UW, W) and no closure where no p, b or m follows.
+  for (const std::size_t word : {0, 1, 2, 4, 5}) {
+    const std::string phones = joined((*spoken)[word]);
+    EXPECT_EQ(phones.find("UW"), std::string::npos) << phones;
+    EXPECT_EQ(phones.find("M"), std::string::npos) << phones;
+  }
+  EXPECT_NE(joined((*spoken)[3]).find("M P"), std::string::npos) << joined((*spoken)[3]);
 }
 
 std::vector<VoiceSymbol> symbols_of(const char* language) {

@@ -1,5 +1,7 @@
 #include "tools/speech/voice/espeak_ipa.h"
 
+#include <initializer_list>
+
 #include "dam/script/script_text_internal.h"
 
 namespace animeme::voice {
@@ -48,12 +50,45 @@ std::string language_of(std::string_view voice) {
   return dam::lower_case(voice.substr(0, voice.find_first_of("-+")));
 }
 
+constexpr std::string_view kNasalU = "\u0169";
+
+// The moraic n of Japanese takes the place of what follows.
+std::string_view moraic_n(std::string_view next) {
+  std::size_t at = 0;
+  while (next.substr(at).starts_with("ˈ") || next.substr(at).starts_with("ˌ")) {
+    at += std::string_view("ˈ").size();
+  }
+  next.remove_prefix(at);
+  const auto begins = [&](std::initializer_list<std::string_view> sounds) {
+    for (const std::string_view sound : sounds) {
+      if (next.starts_with(sound)) return true;
+    }
+    return false;
+  };
+  if (begins({"p", "b", "m"})) return "m";
+  if (begins({"t", "d", "n", "ɾ", "ɽ", "r", "l"})) return "n";
+  if (begins({"k", "g", "ɡ", "ŋ"})) return "ŋ";
+  return "ɴ";
+}
+
 }  // namespace
 
-std::string meant_ipa(std::string_view voice, std::string_view written) {
+std::string_view ipa_behind(const std::vector<VoiceEvent>& events, std::size_t at) {
+  for (std::size_t i = at + 1; i < events.size(); ++i) {
+    if (events[i].kind == EventKind::phoneme && !events[i].ipa.empty()) return events[i].ipa;
+  }
+  return {};
+}
+
+std::string meant_ipa(std::string_view voice, std::string_view written, std::string_view next) {
   const std::string language = language_of(voice);
   std::string out;
   for (std::string_view rest = written; !rest.empty();) {
+    if (language == "ja" && rest.starts_with(kNasalU)) {
+      rest.remove_prefix(kNasalU.size());
+      out += moraic_n(rest.empty() ? next : rest);
+      continue;
+    }
     const Correction* best = nullptr;
     for (const Correction& row : kCorrections) {
       const bool fits = row.language == language && rest.starts_with(row.written);

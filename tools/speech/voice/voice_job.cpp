@@ -138,7 +138,10 @@ Result<EspeakResult> run_voice(const EspeakJob& job) {
   if (!result) return result;
   for (RawSpeech& raw : result->speech) {
     if (job.markup) break;
-    for (VoiceEvent& event : raw.events) event.ipa = meant_ipa(job.voice, event.ipa);
+    for (std::size_t i = 0; i < raw.events.size(); ++i) {
+      VoiceEvent& event = raw.events[i];
+      event.ipa = meant_ipa(job.voice, event.ipa, ipa_behind(raw.events, i));
+    }
   }
   return result;
 }

@@ -173,12 +173,14 @@ std::string warn_of_letters(const RawSpeech& raw, const text::Utterance& utteran
 
 void correct_ipa(RawSpeech& raw, const text::Utterance& utterance) {
   std::size_t speaker = 0;
-  for (VoiceEvent& event : raw.events) {
+  for (std::size_t i = 0; i < raw.events.size(); ++i) {
+    VoiceEvent& event = raw.events[i];
     if (event.kind == EventKind::word && event.text_length > 0) {
       speaker = speaker_at(event.text_position, utterance);
     }
     if (event.kind == EventKind::phoneme && speaker < utterance.speakers.size()) {
-      event.ipa = meant_ipa(utterance.speakers[speaker].voice, event.ipa);
+      event.ipa =
+          meant_ipa(utterance.speakers[speaker].voice, event.ipa, ipa_behind(raw.events, i));
     }
   }
 }
