@@ -5,12 +5,18 @@
 #include <cstdlib>
 
 #include "dam/script/script_text_internal.h"
+#include "tools/speech/text/context_internal.h"
+#include "tools/speech/text/fractions_internal.h"
 #include "tools/speech/text/said.h"
 #include "tools/speech/text/unicode.h"
 #include "tools/speech/text/units_internal.h"
 
 namespace animeme::text {
 namespace {
+
+// Longer numbers are no amounts. What is looked at from one place has an end, since a text may be
+// nothing but "1,1,1,1".
+constexpr std::size_t kLongestNumber = 40, kMostPhoneDigits = 15, kLongestMultiple = 12;
 
 bool is_english(std::string_view language) {
   return language == "en" || language.starts_with("en-");
@@ -22,11 +28,13 @@ bool locale_is_chinese(std::string_view language) {
 
 class Amounts {
  public:
-  Amounts(std::u32string_view text, const std::string& language)
+  Amounts(std::u32string_view text, const std::string& language, char32_t point,
+          bool groups_by_blank, const std::string& order)
       : text_(text),
         language_(language),
-        point_(char32_t(decimal_point(language))),
-        groups_by_blank_(groups_by_blank(language)) {}
+        order_(order),
+        point_(point),
+        groups_by_blank_(groups_by_blank) {}
 
   char32_t at(std::size_t i) const { return i < text_.size() ? text_[i] : U' '; }
   bool digit(std::size_t i) const { return digit_value(at(i)) >= 0; }
@@ -69,7 +77,7 @@ class Amounts {
       return {};
     std::array<int, 3> value{};
     for (std::size_t k = 0; k < 3; ++k) value[k] = std::atoi(ascii(first[k], last[k]).c_str());
-    std::string order = date_order(language_);
+    std::string order = order_;
     const bool year_first = last[0] - first[0] == 4, year_last = last[2] - first[2] == 4;
     // 1.2.3 is no day.
     if (!year_first && !year_last && last[2] - first[2] != 2) return {};
@@ -77,9 +85,9 @@ class Amounts {
       order = "ymd";
     else if (separator == U'.' || (year_last && order == "ymd"))
       order = "dmy";
-    std::string words = named(value, order, !year_first && !year_last);
+    std::string words = named(value, order, !year_first && !year_last, from);
     if (words.empty() && order != "ymd")
-      words = named(value, order == "mdy" ? "dmy" : "mdy", !year_last);
+      words = named(value, order == "mdy" ? "dmy" : "mdy", !year_last, from);
     if (words.empty()) return {};
     return {i, code_points(words)};
   }
@@ -92,9 +100,28 @@ class Amounts {
     return end - colon == 3 ? end : 0;
   }
 
-  // ASCII digits with a point, from a number in the manner of the language; `end` behind it.
+  // "9:30 Uhr", "9.00 Uhr": a voice would say "Uhr" twice, or the point.
+  Amount german_clock(std::size_t from) const {
+    const std::size_t sign = digits_end(from);
+    if (sign - from > 2 || (at(sign) != U':' && at(sign) != U'.')) return {};
+    const std::size_t end = digits_end(sign + 1);
+    const std::size_t word = blanks_end(end);
+    if (end - sign != 3 || word == end || word - end > 2) return {};
+    if (text_.substr(word, 3) != U"Uhr" || !free_at(word + 3)) return {};
+    const int hours = std::atoi(ascii(from, sign).c_str());
+    const int minutes = std::atoi(ascii(sign + 1, end).c_str());
+    if (hours > 24 || minutes > 59) return {};
+    std::string words = (hours == 1 ? "ein" : std::to_string(hours)) + " Uhr";
+    if (minutes > 0) words += " " + std::to_string(minutes);
+    return {word + 3, code_points(words)};
+  }
+
+  // ASCII digits with a point, from a number in the manner of the language; `end` behind it. Empty
+  // for what is too long.
   std::string number(std::size_t from, std::size_t& end) const {
     std::size_t i = digits_end(from);
+    end = from;
+    if (i - from > kLongestNumber) return {};
     std::string out = ascii(from, i);
     bool fraction = false;
     for (;;) {
@@ -109,6 +136,7 @@ class Amounts {
         out += '.';
         fraction = true;
       }
+      if (next - from > kLongestNumber) return {};
       out += ascii(i + 1, next);
       i = next;
     }
@@ -130,42 +158,63 @@ class Amounts {
     return 0;
   }
 
-  // "5 million": the number of what follows, with its blank; 0 if there is none.
-  std::size_t multiple_end(std::size_t from) const {
+  // "5 million", "2,5 Mio.", "1.5M": the end of what follows, as words; 0 if there is none.
+  // `money`: a currency is before or behind, so that a letter alone counts.
+  Amount multiple(std::size_t from, bool money) const {
     const std::size_t first = blanks_end(from);
+    if (first - from > 2) return {};
     std::size_t last = first;
-    while (is_letter(at(last))) ++last;
-    const std::string word = dam::lower_case(utf8(text_.substr(first, last - first)));
+    while (is_letter(at(last)) && last - first <= kLongestMultiple) ++last;
+    if (digit(last)) return {};
+    const std::u32string_view sign = text_.substr(first, last - first);
+    const int power = multiple_of(sign);
+    const std::string name = multiple_name(power, language_, {});
+    if (!name.empty() && (money || sign.size() > 1)) {
+      if (at(last) == U'.' && first > from && !ends_text(text_, last + 1)) ++last;
+      return {last, code_points(name.substr(0, name.size() - 1))};
+    }
+    const std::string word = dam::lower_case(utf8(sign));
     for (const std::string_view begin :
          {"million", "billion", "trillion", "thousand", "milliard", "mio", "mrd", "mill", "миллион",
           "миллиард", "млн", "млрд", "тыс", "bn", "万", "亿", "億"}) {
-      if (first > from && word.starts_with(begin)) return last;
+      if (first > from && word.starts_with(begin)) return {last, std::u32string(sign)};
     }
-    return 0;
+    return {};
+  }
+
+  // A number and a multiple with its currency: "1.5 million dollars".
+  std::u32string many(std::u32string_view number, const std::u32string& multiple,
+                      std::string_view currency) const {
+    std::string plural = currency_amount("5", currency, language_);
+    plural.erase(0, std::min(plural.find_first_not_of("5 \u00A0\u202F"), plural.size()));
+    if (locale_is_chinese(language_) && currency == "CNY") plural = "元";
+    // What joins them, by the same table that names it.
+    std::string join = " ";
+    for (int power = 0; power < 4; ++power) {
+      const std::string alone = multiple_name(power, language_, {});
+      const std::string joined = multiple_name(power, language_, plural);
+      if (alone == utf8(multiple) + " ") join = joined.substr(alone.size() - 1);
+    }
+    return std::u32string(number) + U" " + multiple + code_points(join + plural);
   }
 
   Amount money(std::size_t first_digit, std::string_view currency) const {
     std::size_t end = 0;
     const std::string value = number(first_digit, end);
-    if (!free_at(end)) return {};
+    if (value.empty()) return {};
     // The yen and the yuan share a sign.
     const bool chinese = locale_is_chinese(language_);
     if (chinese && currency == "JPY") currency = "CNY";
-    std::string words = spell_amount(value, currency, language_);
+    if (const Amount more = multiple(end, true); more.end > 0) {
+      return {more.end, many(text_.substr(first_digit, end - first_digit), more.words, currency)};
+    }
+    if (!free_at(end)) return {};
+    std::string words = currency_amount(value, currency, language_);
     if (words.empty()) return {};
     // People say "yuan" and "won", CLDR the names of the money.
     if (chinese && currency == "CNY") words = value + "元";
     if (language_ == "ko" && currency == "KRW") words = value + "원";
-    if (const std::size_t more = multiple_end(end); more != 0) {
-      // Number, "million", name of the currency.
-      const std::string plural = spell_amount("5", currency, language_);
-      const std::size_t name = plural.find_first_not_of("5 ");
-      words = utf8(text_.substr(first_digit, more - first_digit)) + " " +
-              (chinese && currency == "CNY" ? "元"
-               : name == std::string::npos  ? ""
-                                            : plural.substr(name));
-      end = more;
-    } else if (is_english(language_) && !english_money(value, currency).empty())
+    if (is_english(language_) && !english_money(value, currency).empty())
       words = english_money(value, currency);
     return {end, code_points(words)};
   }
@@ -176,9 +225,9 @@ class Amounts {
     std::size_t i = from, digits = 0, groups = 0, end = from;
     const bool plus = at(i) == U'+';
     if (plus) ++i;
-    while (i < text_.size()) {
+    while (i < text_.size() && digits <= kMostPhoneDigits) {
       std::size_t next = i;
-      while (next < text_.size() &&
+      while (next < text_.size() && next - i <= 2 &&
              (text_[next] == U'(' || text_[next] == U')' || text_[next] == U'-' ||
               text_[next] == U' ' || text_[next] == 0xA0 || (text_[next] == U'/' && groups == 1))) {
         ++next;
@@ -186,6 +235,7 @@ class Amounts {
       if (!digit(next) || next - i > 2) break;
       if (groups > 0) words += U", ";
       i = digits_end(next);
+      if (i - next > kMostPhoneDigits) return {};
       for (std::size_t k = next; k < i; ++k) {
         words += k > next ? U" " : U"";
         words += char32_t(U'0' + digit_value(at(k)));
@@ -204,8 +254,8 @@ class Amounts {
   }
 
  private:
-  std::string named(const std::array<int, 3>& value, const std::string& order,
-                    bool short_year) const {
+  std::string named(const std::array<int, 3>& value, const std::string& order, bool short_year,
+                    std::size_t from) const {
     const auto part = [&](char name) { return value[order.find(name)]; };
     int year = part('y');
     if (short_year) year += year < 70 ? 2000 : 1900;
@@ -218,8 +268,13 @@ class Amounts {
                       year_word);
       }
     }
-    if (!is_english(language_)) return words;
     const std::string day = std::to_string(part('d'));
+    if (language_base(language_) == "de" && words.starts_with(day + ". ")) {
+      // A voice would end a sentence at the full stop.
+      const auto ordinal = german_ordinal(part('d'), lower_word(text_, word_before(text_, from)));
+      if (!ordinal.empty()) words.replace(0, day.size() + 1, utf8(ordinal));
+    }
+    if (!is_english(language_)) return words;
     const std::size_t place = words.find(day);
     const std::string ordinal = spell_number(day, language_, NumberForm::ordinal_digits);
     if (place != std::string::npos && !ordinal.empty()) words.replace(place, day.size(), ordinal);
@@ -228,6 +283,7 @@ class Amounts {
 
   std::u32string_view text_;
   const std::string& language_;
+  const std::string& order_;
   char32_t point_;
   bool groups_by_blank_;
 };
@@ -243,13 +299,17 @@ std::u32string in_words(const std::string& number, const std::string& language) 
 
 }  // namespace
 
-Amount amount_at(std::u32string_view text, std::size_t at, const std::string& language,
-                 bool spell_digits) {
-  // Told before the language is asked for its decimal point, which takes a while.
-  const char32_t begin = at < text.size() ? text[at] : U' ';
+Amount AmountReader::read(std::size_t at) {
+  const char32_t begin = at < text_.size() ? text_[at] : U' ';
   const std::string_view currency = currency_of(begin);
   if (currency.empty() && begin != U'+' && begin != U'(' && digit_value(begin) < 0) return {};
-  const Amounts all(text, language);
+  if (!known_) {
+    known_ = true;
+    point_ = char32_t(decimal_point(language_));
+    groups_by_blank_ = groups_by_blank(language_);
+    order_ = date_order(language_);
+  }
+  const Amounts all(text_, language_, point_, groups_by_blank_, order_);
   if (!currency.empty()) {
     const std::size_t first = all.blanks_end(at + 1);
     return all.digit(first) ? all.money(first, currency) : Amount{};
@@ -257,36 +317,54 @@ Amount amount_at(std::u32string_view text, std::size_t at, const std::string& la
   if (all.at(at) == U'+' || all.at(at) == U'(') return all.telephone(at);
   if (!all.digit(at)) return {};
   if (Amount date = all.date(at); date.end > 0) return date;
+  if (language_.starts_with("de")) {
+    if (Amount clock = all.german_clock(at); clock.end > 0) return clock;
+  }
   if (Amount telephone = all.telephone(at); telephone.end > 0) return telephone;
-  if (const std::size_t hours = all.digits_end(at); language.starts_with("fr") && hours - at <= 2 &&
-                                                    all.at(hours) == U'h' && all.digit(hours + 1)) {
+  if (const std::size_t hours = all.digits_end(at); language_.starts_with("fr") &&
+                                                    hours - at <= 2 && all.at(hours) == U'h' &&
+                                                    all.digit(hours + 1)) {
     const std::size_t end = all.digits_end(hours + 1);
-    std::u32string words(text.substr(at, hours - at));
+    std::u32string words(text_.substr(at, hours - at));
     words += U" heures ";
-    words += text.substr(hours + 1, end - hours - 1);
+    words += text_.substr(hours + 1, end - hours - 1);
     if (end - hours == 3 && all.free_at(end)) return {end, words};
   }
   if (const std::size_t end = all.time_end(at); end > 0) {
     const bool half = is_letter(all.at(end));
-    return {half ? end : 0, half ? std::u32string(text.substr(at, end - at)) + U" " : U""};
+    return {half ? end : 0, half ? std::u32string(text_.substr(at, end - at)) + U" " : U""};
   }
   std::size_t end = 0;
   const std::string number = all.number(at, end);
+  if (number.empty()) return {};
   const std::size_t sign = all.blanks_end(end);
   if (const std::size_t unit = all.unit_end(sign); unit > 0 && sign - end <= 1) {
-    const std::string words =
-        spell_amount(number, unit_of(text.substr(sign, unit - sign)), language);
+    const std::string_view name = unit_of(text_.substr(sign, unit - sign));
+    const std::string words = name == "USD" || name == "GBP"
+                                  ? currency_amount(number, name, language_)
+                                  : spell_amount(number, name, language_);
     if (!words.empty()) return {unit, code_points(words)};
   }
+  // 2,5 Mio. €
+  if (const Amount more = all.multiple(end, true); more.end > 0) {
+    const std::size_t name = all.blanks_end(more.end);
+    const std::size_t unit = name - more.end <= 1 ? all.unit_end(name) : 0;
+    const std::string_view money =
+        unit > 0 ? unit_of(text_.substr(name, unit - name)) : std::string_view();
+    if (money.size() == 3 && is_upper(char32_t(money[0]))) {
+      return {unit, all.many(text_.substr(at, end - at), more.words, money)};
+    }
+  }
   if (!all.free_at(end)) return {};
-  if (!spell_digits) {
+  if (!spell_digits_) {
     // A voice would take the parts of 100 000 for two numbers.
-    if (text.substr(at, end - at).find(U' ') == std::u32string_view::npos) return {};
-    std::u32string whole(text.substr(at, end - at));
-    std::erase(whole, U' ');
+    constexpr std::u32string_view kBlanks = U" \u00A0\u202F";
+    std::u32string whole(text_.substr(at, end - at));
+    if (whole.find_first_of(kBlanks) == std::u32string::npos) return {};
+    std::erase_if(whole, [&](char32_t c) { return kBlanks.find(c) != std::u32string::npos; });
     return {end, whole};
   }
-  std::u32string words = in_words(number, language);
+  std::u32string words = in_words(number, language_);
   return {words.empty() ? 0 : end, words};
 }
 

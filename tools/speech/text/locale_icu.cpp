@@ -6,6 +6,9 @@
 #include <unicode/ustring.h>
 
 #include <algorithm>
+#include <map>
+#include <mutex>
+#include <vector>
 
 #include "dam/script/script_text_internal.h"
 #include "tools/speech/text/icu_internal.h"
@@ -76,18 +79,59 @@ std::string language_code(std::string_view language) {
   return code.size() == 3 ? code : "und";
 }
 
-std::string spell_number(std::string_view digits, std::string_view language, NumberForm form) {
-  const std::string locale = locale_of(language);
-  if (!has_locale(locale)) return {};
+namespace {
+
+using Numbers = Owned<UNumberFormat, &unum_close>;
+
+// The first that the language has; none: no such number.
+std::vector<std::u16string_view> rules_of(NumberForm form) {
+  switch (form) {
+    case NumberForm::ordinal:
+      return {u"%spellout-ordinal-masculine", u"%spellout-ordinal"};
+    case NumberForm::ordinal_feminine:
+      return {u"%spellout-ordinal-feminine", u"%spellout-ordinal"};
+    case NumberForm::cardinal_and:
+      return {u"%spellout-cardinal-verbose", u""};
+    case NumberForm::year:
+      return {u"%spellout-numbering-year", u""};
+    default:
+      return {u""};
+  }
+}
+
+Numbers open_numbers(const std::string& locale, NumberForm form) {
   UErrorCode status = U_ZERO_ERROR;
-  const auto style = form == NumberForm::cardinal ? UNUM_SPELLOUT : UNUM_ORDINAL;
-  const Owned<UNumberFormat, &unum_close> format(
-      unum_open(style, nullptr, 0, locale.c_str(), nullptr, &status));
+  const auto style = form == NumberForm::ordinal_digits ? UNUM_ORDINAL : UNUM_SPELLOUT;
+  Numbers format(unum_open(style, nullptr, 0, locale.c_str(), nullptr, &status));
   if (U_FAILURE(status)) return {};
+  for (const std::u16string_view rule : rules_of(form)) {
+    if (rule.empty()) return format;
+    UErrorCode known = U_ZERO_ERROR;
+    unum_setTextAttribute(format.get(), UNUM_DEFAULT_RULESET, rule.data(),
+                          std::int32_t(rule.size()), &known);
+    if (U_SUCCESS(known)) return format;
+  }
+  return {};
+}
+
+}  // namespace
+
+// Made once, since it takes a while. Calls share them, one at a time.
+std::string spell_number(std::string_view digits, std::string_view language, NumberForm form) {
+  static std::mutex mutex;
+  static std::map<std::pair<std::string, NumberForm>, Numbers> made;
+  const std::string locale = locale_of(language);
+  const std::lock_guard lock(mutex);
+  auto known = made.find({locale, form});
+  if (known == made.end()) {
+    Numbers format = has_locale(locale) ? open_numbers(locale, form) : Numbers();
+    known = made.emplace(std::pair{locale, form}, std::move(format)).first;
+  }
+  if (!known->second) return {};
   const std::string ascii(digits);
   return written<UErrorCode>([&](UChar* out, std::int32_t size, UErrorCode* error) {
-    return unum_formatDecimal(format.get(), ascii.c_str(), std::int32_t(ascii.size()), out, size,
-                              nullptr, error);
+    return unum_formatDecimal(known->second.get(), ascii.c_str(), std::int32_t(ascii.size()), out,
+                              size, nullptr, error);
   });
 }
 

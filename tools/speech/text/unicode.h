@@ -80,9 +80,17 @@ char32_t traditional(char32_t code);
 std::string pinyin_of(char32_t code);
 
 /// Forms of spelled numbers.
-enum class NumberForm : std::uint8_t { cardinal, ordinal_digits };
-/// Spells a number: "forty-two"; for ordinal_digits "42nd". `digits` is ASCII: "42", "3.5". Empty
-/// without data.
+enum class NumberForm : std::uint8_t {
+  cardinal,          ///< "one hundred forty-two"
+  ordinal_digits,    ///< "142nd"
+  ordinal,           ///< "forty-second"; masculine where a language has genders, without an ending
+                     ///< for cases ("vierte")
+  ordinal_feminine,  ///< "segunda"; as ordinal where there are no genders
+  cardinal_and,      ///< "one hundred and forty-two"; as cardinal but in English
+  year,              ///< "nineteen eighty-four"; as cardinal where years are read so
+};
+/// Spells a number: "forty-two". `digits` is ASCII: "42", "3.5". Empty without data, and for
+/// ordinals in languages whose data has none.
 std::string spell_number(std::string_view digits, std::string_view language, NumberForm form);
 
 /// A day with the name of its month in the order of the locale: "May 12, 2024", "12. Mai 2024".

@@ -4,7 +4,11 @@
 #include <cctype>
 
 #include "dam/script/script_text_internal.h"
+#include "tools/speech/text/abbreviations_internal.h"
 #include "tools/speech/text/amounts_internal.h"
+#include "tools/speech/text/context_internal.h"
+#include "tools/speech/text/fractions_internal.h"
+#include "tools/speech/text/roman_internal.h"
 #include "tools/speech/text/unicode.h"
 #include "tools/speech/text/units_internal.h"
 
@@ -30,7 +34,11 @@ constexpr std::u32string_view kSaidSymbols = U"€£¥￥₽₹₩₺₴₪¢°�
 
 class WrittenReader {
  public:
-  WrittenReader(const Said& said, const Writing& writing) : in_(said), writing_(writing) {}
+  WrittenReader(const Said& said, const Writing& writing)
+      : in_(said),
+        writing_(writing),
+        base_(language_base(writing.language)),
+        amounts_(in_.text, writing.language, writing.spell_digits) {}
 
   Said read() {
     while (at_ < in_.size()) step();
@@ -66,11 +74,12 @@ class WrittenReader {
 
   void step() {
     if (address()) return;
-    if (starts_amount()) {
-      const Amount amount = amount_at(in_.text, at_, writing_.language, writing_.spell_digits);
-      if (amount.end > at_) return say(amount.words, amount.end);
-    }
     const char32_t c = at(at_);
+    if (starts_amount()) {
+      if (const Amount amount = number_or_word(c); amount.end > at_) {
+        return say(amount.words, amount.end);
+      }
+    }
     if (punctuation(c)) return;
     if (one_of(c, kInvisible)) {
       ++at_;
@@ -79,6 +88,20 @@ class WrittenReader {
     } else {
       keep(at_ + 1);
     }
+  }
+
+  // What is said in another way than letter by letter and digit by digit.
+  Amount number_or_word(char32_t c) {
+    const std::u32string_view text = in_.text;
+    if (kind_of(c) == Kind::digit) {
+      if (Amount part = fraction_at(text, at_, writing_.language, base_); part.end > 0) return part;
+      if (Amount rank = ordinal_at(text, at_, writing_.language, base_); rank.end > 0) return rank;
+    } else if (is_letter(c) && starts_word()) {
+      if (Amount word = abbreviation_at(text, at_, base_); word.end > 0) return word;
+      if (Amount note = sharp_at(text, at_, base_); note.end > 0) return note;
+      return roman_at(text, at_, writing_.language, base_);
+    }
+    return amounts_.read(at_);
   }
 
   bool is_unsaid(char32_t c) const {
@@ -121,9 +144,18 @@ class WrittenReader {
     return true;
   }
 
+  bool begins_address() const {
+    for (const std::u32string_view begin : {U"http://", U"https://", U"ftp://", U"www."}) {
+      std::size_t k = 0;
+      while (k < begin.size() && lower(at(at_ + k)) == begin[k]) ++k;
+      if (k == begin.size()) return true;
+    }
+    return false;
+  }
+
   // https://www.x.y/z: without what nobody says; its parts with pauses.
   bool address() {
-    if (!starts_word()) return false;
+    if (!starts_word() || !begins_address()) return false;
     std::size_t end = at_;
     while (end < in_.size() && !is_blank(at(end)) && at(end) < 0x80 && !one_of(at(end), U"<>\"'()"))
       ++end;
@@ -153,6 +185,8 @@ class WrittenReader {
 
   const Said& in_;
   const Writing& writing_;
+  std::string base_;
+  AmountReader amounts_;
   Said out_;
   std::size_t at_ = 0;
 };

@@ -60,7 +60,9 @@ std::vector<Segment> spread_evenly(const std::vector<float>& samples,
   double total = 0;
   for (const SpokenWord& word : words) {
     if (word.variants.empty()) continue;
-    for (const std::string& label : word.variants[0]) total += dam::usual_duration(label);
+    for (const std::string& label : word.variants[0]) {
+      if (label != dam::kSilence) total += dam::usual_duration(label);
+    }
   }
   const Stretch loud = loud_part(samples);
   std::vector<Segment> segments;
@@ -69,6 +71,7 @@ std::vector<Segment> spread_evenly(const std::vector<float>& samples,
   for (std::size_t w = 0; w < words.size(); ++w) {
     if (words[w].variants.empty()) continue;
     for (const std::string& label : words[w].variants[0]) {
+      if (label == dam::kSilence) continue;  // between the words of a reading
       segments.push_back({loud.start + (loud.end - loud.start) * done / total, label, w, 0, 1});
       done += dam::usual_duration(label);
     }
@@ -105,8 +108,11 @@ Error refusal(const Alignment& found, const AlignOptions& options) {
 std::size_t least_phones(const std::vector<SpokenWord>& words) {
   std::size_t count = 0;
   for (const SpokenWord& word : words) {
-    std::size_t least = word.variants.empty() ? 0 : word.variants[0].size();
-    for (const Labels& variant : word.variants) least = std::min(least, variant.size());
+    const auto phones = [](const Labels& labels) {
+      return labels.size() - std::size_t(std::count(labels.begin(), labels.end(), dam::kSilence));
+    };
+    std::size_t least = word.variants.empty() ? 0 : phones(word.variants[0]);
+    for (const Labels& variant : word.variants) least = std::min(least, phones(variant));
     count += least;
   }
   return count;
@@ -122,13 +128,12 @@ Result<Alignment> align(const media::Pcm& audio, std::string_view transcript,
   }
   const auto parted = parted_words(transcript, options.language);
   if (!parted) return parted.error();
-  const std::vector<std::string>& texts = *parted;
   Alignment result;
-  if (texts.empty()) {
+  if (parted->empty()) {
     return make_error(Code::invalid_argument, "the transcript has no words; give what is said");
   }
   if (auto good = check_recogniser(options); !good) return good.error();
-  const auto words = find_pronunciations(texts, options, result.warnings);
+  const auto words = find_pronunciations(*parted, options, result.warnings);
   if (!words) return words.error();
   if (std::all_of(words->begin(), words->end(),
                   [](const SpokenWord& word) { return word.variants.empty(); })) {

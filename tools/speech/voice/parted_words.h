@@ -7,11 +7,13 @@
 #include <vector>
 
 #include "fap/result.h"
+#include "tools/speech/text/readings.h"
 
 namespace animeme::voice {
 
-/// split_words(); Chinese and Japanese, which have no blanks between words, by their dictionaries.
-/// Errors: those of text::word_readings().
-Result<std::vector<std::string>> parted_words(std::string_view text, std::string_view language);
+/// The words of a transcript: those of split_words(), without readings, and what is said in several
+/// ways with these (text::tokens_with_readings()). Chinese and Japanese, which have no blanks
+/// between words, by their dictionaries. Errors: those of text::word_readings().
+Result<std::vector<text::Token>> parted_words(std::string_view text, const std::string& language);
 
 }  // namespace animeme::voice

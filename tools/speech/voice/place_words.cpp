@@ -42,9 +42,11 @@ PathCosts costs_of(const FrameScores& scores, bool foreign) {
 }
 
 double costs_to_skip(std::span<const WordModel> words, const PathCosts& costs) {
-  const auto known = std::count_if(words.begin(), words.end(),
-                                   [](const WordModel& word) { return !word.variants.empty(); });
-  return known == 0 ? 0 : double(costs.skip) + double(known) * double(costs.skip_word);
+  double known = 0;
+  for (const WordModel& word : words) {
+    if (!word.variants.empty()) known += double(word.words);
+  }
+  return known == 0 ? 0 : double(costs.skip) + known * double(costs.skip_word);
 }
 
 PlacedPart placed(const FrameScores& scores, const PathPart& part) {

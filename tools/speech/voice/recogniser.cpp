@@ -50,7 +50,13 @@ std::vector<WordModel> models_of(const SoundModel& model, const std::vector<Spok
         const auto found = numbers.find(label);
         if (found != numbers.end()) phones.push_back(found->second);
       }
-      if (!phones.empty()) one.variants.push_back(std::move(phones));
+      if (&labels - word.variants.data() == std::ptrdiff_t(word.complete)) {
+        one.complete = one.variants.size();
+      }
+      if (phones.empty()) continue;
+      const auto gaps = float(std::count(labels.begin(), labels.end(), dam::kSilence));
+      one.words = one.variants.empty() ? gaps + 1 : std::min(one.words, gaps + 1);
+      one.variants.push_back(std::move(phones));
     }
     models.push_back(std::move(one));
   }

@@ -34,6 +34,7 @@ std::vector<Placed> said_words(std::span<const PathPart> parts) {
 double usual_frames(const SoundModel& model, const WordModel& word, std::size_t variant) {
   double seconds = 0;
   for (const std::uint8_t phone : word.variants[variant]) {
+    if (model.phones[phone] == "SIL") continue;  // between the words of a reading
     seconds += dam::usual_duration(model.phones[phone]);
   }
   return kFramesPerSecond * seconds;

@@ -109,7 +109,8 @@ Result<Speech> speak_text(std::string_view text, const VoiceOptions& options) {
 }
 
 Result<std::vector<std::vector<std::string>>> pronounce(const std::vector<std::string>& texts,
-                                                        const VoiceOptions& options) {
+                                                        const VoiceOptions& options,
+                                                        bool mark_words) {
   // Texts that one voice speaks as they are go together; the others have markup, or another voice.
   std::map<std::pair<std::string, bool>, std::vector<std::size_t>> together;
   std::vector<text::Utterance> utterances;
@@ -139,9 +140,15 @@ Result<std::vector<std::vector<std::string>>> pronounce(const std::vector<std::s
       RawSpeech& raw = spoken->speech[k];
       const text::Utterance& utterance = utterances[numbers[k]];
       if (utterance.markup) correct_ipa(raw, utterance);
+      std::vector<std::string>& labels = all[numbers[k]];
+      std::string word;
       for (const dam::Phone& phone :
            make_voice_script(raw, spoken->sample_rate, utterance).phones) {
-        if (phone.label != dam::kSilence) all[numbers[k]].push_back(phone.label);
+        if (phone.label == dam::kSilence) continue;
+        const bool another = mark_words && !labels.empty() && phone.word != word;
+        if (another) labels.emplace_back(dam::kSilence);
+        word = phone.word;
+        labels.push_back(phone.label);
       }
     }
   }

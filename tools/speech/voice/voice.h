@@ -105,10 +105,11 @@ Result<std::vector<VoiceInfo>> list_voices(const std::string& data_path = {});
 /// programs that speak a lot in one thread.
 void keep_voices();
 
-/// Converts letters to phones: the ARPAbet labels of each text, spoken separately, without SIL. An
-/// empty entry means that the voice says nothing. Chinese and Japanese words may be in characters.
-/// Errors as speak_text().
+/// Converts letters to phones: the ARPAbet labels of each text, spoken separately, without SIL, or,
+/// with `mark_words`, with one SIL between two words. An empty entry means that the voice says
+/// nothing. Chinese and Japanese words may be in characters. Errors as speak_text().
 Result<std::vector<std::vector<std::string>>> pronounce(const std::vector<std::string>& texts,
-                                                        const VoiceOptions& options = {});
+                                                        const VoiceOptions& options = {},
+                                                        bool mark_words = false);
 
 }  // namespace animeme::voice

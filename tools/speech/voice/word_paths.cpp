@@ -14,7 +14,7 @@ struct Node {
   std::size_t hub = 0;        // border that it is entered from; kNone inside a chain
   std::size_t state = 0;      // of the model; kNone: any sound
   float stay = 0, leave = 0;  // logarithms
-  float enter = 0;            // paid by who enters from a border
+  float enter = 0;            // paid by who enters it, but by a leap
   float frame = 0;            // paid a frame
 };
 
@@ -24,7 +24,12 @@ struct Graph {
     std::size_t node, hub;
     std::uint8_t by;
   };
+  // Over a pause inside of a word, from the node before it to the one behind.
+  struct Leap {
+    std::size_t node, from;
+  };
   std::vector<Node> nodes;
+  std::vector<Leap> leaps;             // ascending
   std::vector<End> ends;               // by hub
   std::vector<std::size_t> ends_from;  // of each hub, and one more
   struct Place {
@@ -45,12 +50,20 @@ Graph make_graph(const SoundModel& model, std::span<const WordModel> words,
   const std::size_t silence = phone_number(model, "SIL");
   const auto chain = [&](std::size_t hub, float enter, std::span<const std::uint8_t> phones,
                          PartKind kind, std::size_t word, std::size_t variant) {
+    const auto is_gap = [&](std::size_t i) {
+      return i > 0 && i + 1 < phones.size() && phones[i] == silence;
+    };
     for (std::size_t i = 0; i < phones.size(); ++i) {
+      if (i > 1 && is_gap(i - 1)) {
+        const std::size_t node = graph.nodes.size();
+        graph.leaps.push_back({node, node - kStatesPerPhone - 1});
+      }
       for (std::size_t part = 0; part < kStatesPerPhone; ++part) {
         const std::size_t state = phones[i] * kStatesPerPhone + part;
+        const float paid = i + part == 0 ? enter : is_gap(i) && part == 0 ? costs.pause : 0;
         graph.nodes.push_back({i + part == 0 ? hub : kNone, state, std::log(model.stay[state]),
-                               std::log(1 - model.stay[state]), enter, 0});
-        graph.places.push_back({kind, word, variant, i});
+                               std::log(1 - model.stay[state]), paid, 0});
+        graph.places.push_back({is_gap(i) ? PartKind::pause : kind, word, variant, i});
       }
     }
   };
@@ -63,7 +76,8 @@ Graph make_graph(const SoundModel& model, std::span<const WordModel> words,
     if (hub > 0) {
       const WordModel& word = words[hub - 1];
       for (std::size_t v = 0; v < word.variants.size() && !word.left_out; ++v) {
-        chain(hub - 1, 0, word.variants[v], PartKind::phone, hub - 1, v);
+        const float paid = v >= word.complete ? costs.skip + costs.skip_word : 0;
+        chain(hub - 1, paid, word.variants[v], PartKind::phone, hub - 1, v);
         graph.ends.push_back({graph.nodes.size() - 1, hub, std::uint8_t(v)});
       }
       if (word.variants.empty()) {
@@ -126,7 +140,7 @@ class Hubs {
         const bool known = !word.variants.empty() && !word.left_out;
         const float anew = best[hub - 1] - (known ? costs_.skip : 0);
         const bool goes_on = chain >= anew;
-        chain = std::max(chain, anew) - (known ? costs_.skip_word : 0);
+        chain = std::max(chain, anew) - (known ? costs_.skip_word * word.words : 0);
         skipped[hub] = goes_on ? 2 : 1;
         if (chain > best[hub]) {
           best[hub] = chain;
@@ -156,7 +170,7 @@ FoundPath find_path(const SoundModel& model, const FrameScores& scores,
   const Graph graph = make_graph(model, words, costs);
   const std::size_t size = graph.nodes.size(), borders = words.size() + 1;
   std::vector<float> best(size, kNever), next(size);
-  Bits moved(frames, size);
+  Bits moved(frames, size), leapt(frames, graph.leaps.size());
   std::vector<std::uint8_t> by((frames + 1) * borders), skipped((frames + 1) * borders);
   Hubs hubs(graph, words, costs);
   hubs.best[0] = 0;
@@ -166,10 +180,20 @@ FoundPath find_path(const SoundModel& model, const FrameScores& scores,
     for (std::size_t n = 0; n < size; ++n) {
       const Node& node = graph.nodes[n];
       const float held = best[n] + node.stay;
-      const float come = node.hub != kNone ? hubs.best[node.hub] - node.enter
-                                           : best[n - 1] + graph.nodes[n - 1].leave;
+      const float come =
+          (node.hub != kNone ? hubs.best[node.hub] : best[n - 1] + graph.nodes[n - 1].leave) -
+          node.enter;
       if (come > held) moved.set(t, n);
       next[n] = std::max(held, come) + (node.state == kNone ? -node.frame : now[node.state]);
+    }
+    for (std::size_t k = 0; k < graph.leaps.size(); ++k) {
+      const auto& leap = graph.leaps[k];
+      const float come =
+          best[leap.from] + graph.nodes[leap.from].leave + now[graph.nodes[leap.node].state];
+      if (come <= next[leap.node]) continue;
+      next[leap.node] = come;
+      moved.set(t, leap.node);
+      leapt.set(t, k);
     }
     std::swap(best, next);
     hubs.reach(best, &by[(t + 1) * borders], &skipped[(t + 1) * borders]);
@@ -209,7 +233,12 @@ FoundPath find_path(const SoundModel& model, const FrameScores& scores,
         hub = graph.nodes[node].hub;
         break;
       }
-      --node;
+      const auto leap = std::lower_bound(
+          graph.leaps.begin(), graph.leaps.end(), node,
+          [](const Graph::Leap& one, std::size_t number) { return one.node < number; });
+      const bool over = leap != graph.leaps.end() && leap->node == node &&
+                        leapt(t, std::size_t(leap - graph.leaps.begin()));
+      node = over ? leap->from : node - 1;
     }
   }
   std::reverse(parts.begin(), parts.end());

@@ -13,16 +13,23 @@
 
 namespace animeme::voice {
 
+/// Behind the last variant.
+inline constexpr std::size_t kNoVariant = ~std::size_t(0);
+
 /// A word as the search wants it: ways to say it, in phones of the model.
 struct WordModel {
-  std::vector<std::vector<std::uint8_t>> variants;  ///< none: any sound at all, or nothing
+  /// None: any sound at all, or nothing. Silence inside of one stands between the words of a
+  /// reading ("twelve euros fifty") and may be left out.
+  std::vector<std::vector<std::uint8_t>> variants;
+  std::size_t complete = kNoVariant;  ///< those behind leave out a word of it
+  float words = 1;        ///< that it is said with: to leave it out costs as much as them
   bool weak = false;      ///< often said with less than its sounds, as "with", "at"
   bool left_out = false;  ///< it is known that nobody says it
 };
 
 /// What is paid, in logarithms of likelihoods (which are far too sure of themselves).
 struct PathCosts {
-  float pause = 46;         ///< between words, once
+  float pause = 46;         ///< between words, once; also between those of a reading
   float skip = 60;          ///< before words that are not said, once
   float skip_word = 10;     ///< each of them
   float foreign = 60;       ///< before sound that the text does not have, once
@@ -38,10 +45,10 @@ struct PathPart {
   PartKind kind = PartKind::pause;  ///< what it is
   std::size_t first = 0;            ///< frame
   std::size_t frames = 0;           ///< that it takes
-  std::size_t word = 0;             ///< of phones, and of foreign sound that is a word; else none
-  std::size_t variant = 0;          ///< of phones: the way to say the word
-  std::size_t index = 0;            ///< of phones: their number in it
-  float score = 0;                  ///< sum over its frames
+  std::size_t word = 0;     ///< of phones, pauses inside of it, and foreign sound that is it
+  std::size_t variant = 0;  ///< of phones: the way to say the word
+  std::size_t index = 0;    ///< of phones: their number in it
+  float score = 0;          ///< sum over its frames
 };
 
 /// No word.

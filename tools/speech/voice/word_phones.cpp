@@ -2,6 +2,8 @@
 
 #include <map>
 
+#include "tools/speech/text/word_readings.h"
+#include "tools/speech/voice/parted_words.h"
 #include "tools/speech/voice/pronunciation.h"
 #include "tools/speech/voice/transcript.h"
 #include "tools/speech/voice/voice.h"
@@ -11,14 +13,24 @@ namespace {
 
 using Known = std::map<std::string, Labels>;
 
+// The words of a label. Chinese and Japanese labels are words already.
+Result<std::vector<text::Token>> tokens_of(const std::string& label, const std::string& language) {
+  if (!text::has_unparted_words(language)) return parted_words(label, language);
+  std::vector<text::Token> tokens;
+  for (std::string& word : split_words(label)) tokens.push_back({std::move(word), {}, 0});
+  return tokens;
+}
+
 Result<Known> pronounce_all(const dam::Timings& timings, const AlignOptions& options,
                             std::vector<std::string>& warnings) {
   std::map<std::string, bool> seen;
-  std::vector<std::string> words;
+  std::vector<text::Token> words;
   for (const dam::TimedLabel& label : timings.labels) {
     if (!label.is_word) continue;
-    for (std::string& word : split_words(label.label)) {
-      if (seen.emplace(word, true).second) words.push_back(std::move(word));
+    auto tokens = tokens_of(label.label, options.language);
+    if (!tokens) return tokens.error();
+    for (text::Token& word : *tokens) {
+      if (seen.emplace(word.text, true).second) words.push_back(std::move(word));
     }
   }
   Known known;
@@ -26,7 +38,9 @@ Result<Known> pronounce_all(const dam::Timings& timings, const AlignOptions& opt
   const auto spoken = find_pronunciations(words, options, warnings);
   if (spoken) {
     for (const SpokenWord& word : *spoken) {
-      if (!word.variants.empty()) known[word.text] = word.variants[0];
+      if (word.variants.empty()) continue;
+      Labels& labels = known[word.text] = word.variants[0];
+      std::erase(labels, dam::kSilence);
     }
     return known;
   }
@@ -34,26 +48,31 @@ Result<Known> pronounce_all(const dam::Timings& timings, const AlignOptions& opt
   // Without the dictionary of the recogniser a voice knows the words of English, too.
   VoiceOptions voice;
   voice.language = options.language;
-  auto guessed = pronounce(words, voice);
+  std::vector<std::string> texts;
+  for (const text::Token& word : words) {
+    texts.push_back(word.readings.empty() ? word.text : word.readings.front());
+  }
+  auto guessed = pronounce(texts, voice);
   if (!guessed) return spoken.error();
   for (std::size_t i = 0; i < words.size(); ++i) {
     if ((*guessed)[i].empty()) {
-      warnings.push_back("no pronunciation for \"" + words[i] + "\"; the word is left out");
+      warnings.push_back("no pronunciation for \"" + words[i].text + "\"; the word is left out");
     } else {
-      known[words[i]] = std::move((*guessed)[i]);
+      known[words[i].text] = std::move((*guessed)[i]);
     }
   }
   return known;
 }
 
 // The words of a label share its time by the usual lengths of their phones.
-void add_phones(const dam::TimedLabel& label, const Known& known, dam::Timings& out) {
+void add_phones(const dam::TimedLabel& label, const std::vector<text::Token>& tokens,
+                const Known& known, dam::Timings& out) {
   std::vector<std::pair<std::string, const Labels*>> words;
   double total = 0;
-  for (const std::string& word : split_words(label.label)) {
-    const auto found = known.find(word);
+  for (const text::Token& token : tokens) {
+    const auto found = known.find(token.text);
     if (found == known.end()) continue;
-    words.emplace_back(word, &found->second);
+    words.emplace_back(token.text, &found->second);
     for (const std::string& phone : found->second) total += dam::usual_duration(phone);
   }
   double done = 0;
@@ -80,14 +99,16 @@ Result<dam::Timings> words_to_phones(const dam::Timings& timings, const AlignOpt
       out.labels.push_back(label);
       continue;
     }
-    if (split_words(label.label).empty()) continue;  // punctuation
+    const auto tokens = tokens_of(label.label, options.language);
+    if (!tokens) return tokens.error();
+    if (tokens->empty()) continue;  // punctuation
     if (!(label.end > label.start)) {
       return error_at_line(Code::syntax,
                            "the word \"" + label.label.substr(0, 40) +
                                "\" does not end after its start; give it a duration or remove it",
                            label.line, label.column);
     }
-    add_phones(label, *known, out);
+    add_phones(label, *tokens, *known, out);
   }
   return out;
 }
