@@ -58,6 +58,8 @@ TEST(Spoken, RomanNumerals) {
       {"it", "Papa Leone X ed Elisabetta II", "Papa Leone decimo ed Elisabetta seconda"},
       {"pt", "Dom João VI, capítulo IV", "Dom João sexto, capítulo quatro"},
       {"nl", "Willem II en hoofdstuk IV", "Willem de tweede en hoofdstuk vier"},
+      {"de", "im II. Weltkrieg, das II. Kapitel", "im zweiten Weltkrieg, das zweite Kapitel"},
+      {"en", "WWII, Type II, Chapter VII: Home", "World War two, Type two, Chapter seven: Home"},
   };
   for (const Reading& row : kRows) check(row);
 }
@@ -140,6 +142,20 @@ TEST(Spoken, Abbreviations) {
       {"pt", "o Sr. Silva e a D. Maria, n.º 5", "o senhor Silva e a dona Maria, número 5"},
       {"nl", "bijv. dit, d.w.z. dat, dhr. Jansen, enz. Dan",
        "bijvoorbeeld dit, dat wil zeggen dat, de heer Jansen, enzovoort. Dan"},
+  };
+  for (const Reading& row : kRows) check(row);
+}
+
+TEST(Spoken, DecadesRanksAndFullHours) {
+  SKIP_WITHOUT_ICU();
+  const Reading kRows[] = {
+      {"en", "the 1980s, the '90s, 1900's",
+       "the nineteen eighties, the 'nineties, nineteen hundreds"},
+      {"en", "the 100th and 5th, 5 s", "the one hundredth and 5th, 5 s"},
+      {"en", "at 9:00, 9:00pm, 9:00 am, 9:05 or 15:30",
+       "at 9 o'clock, 9 pm, 9 am, 9 oh 5 or 15:30"},
+      {"en", "No.1, J. M. Dent", "number 1, J. M. Dent"},
+      {"fr", "J. M. Dupont, M. Dupont", "J. M. Dupont, monsieur Dupont"},
   };
   for (const Reading& row : kRows) check(row);
 }

@@ -28,6 +28,9 @@ struct Abbreviation {
 };
 
 constexpr Abbreviation kEnglish[] = {
+    {U"WWI", U"World War one"},
+    {U"WWII", U"World War two"},
+    {U"WW II", U"World War two"},
     {U"St~", U"street", Beside::place},
     {U"Dr~", U"drive", Beside::place},
     {U"Ave~", U"avenue", Beside::place_end},
@@ -145,8 +148,8 @@ constexpr Abbreviation kGerman[] = {
     {U"max.", U"maximal", Beside::number},
     {U"Nr.", U"Nummer"},
     {U"Tel.", U"Telefon"},
-    {U"Mio.", U"Millionen"},
-    {U"Mrd.", U"Milliarden"},
+    {U"Mio~", U"Millionen"},
+    {U"Mrd~", U"Milliarden"},
     {U"Tsd.", U"Tausend"},
     {U"Dr~", U"Doktor", Beside::name},
     {U"Prof~", U"Professor", Beside::name},
@@ -421,7 +424,7 @@ std::size_t written_end(std::u32string_view text, std::size_t at, const Abbrevia
     }
   }
   if (i >= text.size()) return i;
-  const bool digit = row.where == Beside::number && digit_value(text[i]) >= 0;
+  const bool digit = text[i - 1] == U'.' && digit_value(text[i]) >= 0;  // Nr.5
   return is_letter_or_digit(text[i]) && !digit ? 0 : i;
 }
 
@@ -449,10 +452,22 @@ bool answers(std::u32string_view text, std::size_t at) {
                                  lower_word(text, word));
 }
 
+// "J. M. Dupont", "Washington D. C.": a letter with others beside it.
+bool is_initial(std::u32string_view text, std::size_t at, std::size_t end) {
+  std::size_t last = at;
+  while (last > 0 && at - last < 2 && is_space(text[last - 1])) --last;
+  const bool before = last > 1 && text[last - 1] == U'.' && is_upper(text[last - 2]);
+  const WordPlace next = word_behind(text, end);
+  const bool behind =
+      next.last == next.first + 1 && next.last < text.size() && text[next.last] == U'.';
+  return before || behind;
+}
+
 bool fits(std::u32string_view text, std::size_t at, std::size_t end, const Abbreviation& row,
           std::string_view base) {
   switch (row.where) {
     case Beside::name:
+      if (row.written.size() == 2 && is_initial(text, at, end)) return false;
       return upper_follows(text, end) ||
              (end + 1 < text.size() && text[end] == U'-' && is_upper(text[end + 1]));  // St-Pierre
     case Beside::number:
@@ -485,6 +500,7 @@ Amount abbreviation_at(std::u32string_view text, std::size_t at, std::string_vie
     const bool begins = often ? upper_follows(text, end) : starter_follows(text, end, base);
     const bool leads = row.where == Beside::name || row.where == Beside::number;
     if (stop && (ends_text(text, end) || (begins && !leads))) words += U'.';
+    if (end < text.size() && is_letter_or_digit(text[end])) words += U' ';
     return {end, words};
   }
   return {};

@@ -100,6 +100,22 @@ class Amounts {
     return end - colon == 3 ? end : 0;
   }
 
+  // "9:00", "9:05": a voice would say "nine zero zero".
+  Amount english_clock(std::size_t from, std::size_t end) const {
+    if (at(end - 2) != U'0' || at(end) == U':' || at(from) == U'0') return {};
+    const std::u32string hour(text_.substr(from, end - 3 - from));
+    const std::size_t word = blanks_end(end);
+    const std::u32string_view half = text_.substr(word, 2);
+    const bool named = word - end <= 1 && (half == U"am" || half == U"pm" || half == U"AM" ||
+                                           half == U"PM" || half == U"a." || half == U"p.");
+    if (!named && !free_at(end)) return {};
+    const bool touches = named && word == end;
+    if (at(end - 1) != U'0') return {end, hour + U" oh " + text_[end - 1] + (touches ? U" " : U"")};
+    if (named) return {end, hour + (touches ? U" " : U"")};
+    if (std::atoi(ascii(from, end - 3).c_str()) > 12) return {};
+    return {end, hour + U" o'clock"};
+  }
+
   // "9:30 Uhr", "9.00 Uhr": a voice would say "Uhr" twice, or the point.
   Amount german_clock(std::size_t from) const {
     const std::size_t sign = digits_end(from);
@@ -331,6 +347,9 @@ Amount AmountReader::read(std::size_t at) {
     if (end - hours == 3 && all.free_at(end)) return {end, words};
   }
   if (const std::size_t end = all.time_end(at); end > 0) {
+    if (is_english(language_)) {
+      if (Amount clock = all.english_clock(at, end); clock.end > 0) return clock;
+    }
     const bool half = is_letter(all.at(end));
     return {half ? end : 0, half ? std::u32string(text_.substr(at, end - at)) + U" " : U""};
   }

@@ -146,6 +146,28 @@ constexpr std::string_view kGermanE = " der die das ";
 constexpr std::string_view kGermanEn =
     " am dem den des im vom zum zur beim ab seit bis einem einer eines ihrem seinem ";
 
+// "1980s", of which a voice says "eighty z", and "100th", "one hundred th".
+Amount english_rank(std::u32string_view text, std::size_t end, int value, std::size_t digits,
+                    const std::string& language) {
+  const std::u32string_view rest = text.substr(end);
+  const auto ends = [&](std::size_t size) {
+    return size >= rest.size() || !is_letter_or_digit(rest[size]);
+  };
+  const bool apostrophe = rest.starts_with(U"'s") || rest.starts_with(U"’s");
+  const std::size_t tail = apostrophe ? 2 : rest.starts_with(U"s") ? 1 : 0;
+  if (tail > 0 && ends(tail) && value % 10 == 0 && (digits == 2 || digits == 4)) {
+    std::u32string words = fraction_number(value, language, NumberForm::year);
+    if (words.empty()) return {};
+    if (words.back() == U'y') words.replace(words.size() - 1, 1, U"ie");
+    return {end + tail, words + U"s"};
+  }
+  const bool rank = rest.starts_with(U"st") || rest.starts_with(U"nd") || rest.starts_with(U"rd") ||
+                    rest.starts_with(U"th");
+  if (!rank || !ends(2) || value < 100) return {};
+  const std::u32string words = fraction_number(value, language, NumberForm::ordinal);
+  return {words.empty() ? 0 : end + 2, words};
+}
+
 }  // namespace
 
 std::vector<std::u32string> fraction_words(int top, int bottom, const std::string& language,
@@ -285,6 +307,7 @@ Amount ordinal_at(std::u32string_view text, std::size_t at, const std::string& l
         value, language, woman ? NumberForm::ordinal_feminine : NumberForm::ordinal);
     return {words.empty() ? 0 : last, words};
   };
+  if (base == "en") return english_rank(text, end, value, end - at, language);
   if (base == "fr") {
     for (const std::u32string_view ending :
          {U"ième", U"ème", U"ère", U"er", U"re", U"nde", U"nd", U"e"}) {

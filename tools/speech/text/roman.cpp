@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "tools/speech/text/context_internal.h"
+#include "tools/speech/text/fractions_internal.h"
 #include "tools/speech/text/said.h"
 #include "tools/speech/text/unicode.h"
 
@@ -123,6 +124,12 @@ class Roman {
     const bool named = !name_.empty() && is_upper(text_[name_.first]);
     const bool section = has_word(manner_.sections, before_);
     if (named && !section && is_ruler(lone)) return ruler();
+    // "im II. Weltkrieg"
+    const WordPlace next = word_behind(text_, end_ + 1);
+    if (manner_.base == "de" && !lone && sign() == U'.' && !next.empty() && next.first > end_ + 1 &&
+        !starter_follows(text_, end_ + 1, manner_.base)) {
+      return {end_ + 1, german_ordinal(value_, before_)};
+    }
     if (lone) return section && clearly_section() ? cardinal() : Amount{};
     if (manner_.base == "en" && !section && is_letters(named)) return letters();
     if (!manner_.cardinals) return {};
