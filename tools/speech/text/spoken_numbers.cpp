@@ -127,6 +127,13 @@ std::vector<std::string> SpokenNumbers::whole(std::string_view digits, Figures f
   if (zero) add_new(all, digit_by_digit(digits));
   if (zero && base_ == "en") add_new(all, digit_by_digit(digits, true));
   add_new(all, cardinal(value));
+  // "hundert" for "einhundert", "tausend" for "eintausend".
+  if (base_ == "de") {
+    const std::string number = cardinal(value);
+    if (number.starts_with("einhundert") || number.starts_with("eintausend")) {
+      add_new(all, number.substr(3));
+    }
+  }
   if (base_ == "en") {
     const std::string with_and =
         unparted(spell_number(std::string(digits), language_, NumberForm::cardinal_and));
