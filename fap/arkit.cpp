@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <vector>
 
 #include "fap/arkit_internal.h"
 #include "fap/detail/symmetry.h"

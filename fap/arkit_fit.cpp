@@ -7,9 +7,8 @@
 
 #include "fap/arkit.h"
 #include "fap/arkit_internal.h"
-#include "fap/detail/arkit_thrift.h"
+#include "fap/detail/arkit_sparsity.h"
 #include "fap/detail/bounded_fit.h"
-#include "fap/tables.h"
 
 namespace animeme::fap {
 namespace {
@@ -59,7 +58,7 @@ double effect(std::size_t channel, int fap) {
 struct ArkitFitter::Impl {
   std::vector<std::size_t> shapes;  // those that are fitted, by channel
   internal::BoundedFit fit;
-  bool thrifty = false;
+  bool sparse = false;
 };
 
 namespace {
@@ -101,8 +100,8 @@ internal::BoundedFit fit_of(const ArkitFitOptions& options) {
   const auto weights = weights_of(shapes);
   internal::BoundedFit fit(weights, options.ridge, options.steadiness,
                            std::numeric_limits<double>::infinity(), 0, lips_of(weights));
-  fit.set_thrift(internal::thrift_of(std::vector<std::optional<int>>(shapes.begin(), shapes.end()),
-                                     options.sparsity));
+  fit.set_sparsity(internal::sparsity_of(
+      std::vector<std::optional<int>>(shapes.begin(), shapes.end()), options.sparsity));
   return fit;
 }
 
@@ -131,7 +130,7 @@ ArkitFrame ArkitFitter::fit(const Frame& frame) {
       target[std::size_t(weight.fap)] -= out[channel] * weight.value;
     }
   }
-  const Mask mask = impl_->thrifty ? internal::without_unmeasured(frame) : frame.mask;
+  const Mask mask = impl_->sparse ? internal::without_unmeasured(frame) : frame.mask;
   const std::vector<double>& weights = impl_->fit.fit(mask, target);
   for (std::size_t i = 0; i < impl_->shapes.size(); ++i) out[impl_->shapes[i]] = weights[i];
   return out;

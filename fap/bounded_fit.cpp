@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <utility>
 
 #include "fap/tables.h"
 
@@ -190,21 +189,21 @@ void BoundedFit::choose_few(const std::vector<double>& wanted, double steadiness
   left_.assign(wanted.begin(), wanted.end());
   for (std::size_t i = 0; i < left_.size(); ++i) {
     const double length = std::sqrt(gram_[i * left_.size() + i]);
-    const double most = std::max(kMostToll, thrift_.least[i]) * length;
-    left_[i] -= std::min(thrift_.least[i], most) * length;
+    const double most = std::max(kMostToll, sparsity_.least[i]) * length;
+    left_[i] -= std::min(sparsity_.least[i], most) * length;
   }
   descend(steadiness);
   std::vector<double>& worth = scratch_;
   worth = weights_;
-  for (const auto& [a, b] : thrift_.opponents) {
+  for (const auto& [a, b] : sparsity_.opponents) {
     const double both = std::min(weights_[a], weights_[b]);
     worth[a] = std::min(worth[a], weights_[a] - both);
     worth[b] = std::min(worth[b], weights_[b] - both);
   }
   for (std::size_t i = 0; i < worth.size(); ++i) {
-    if (thrift_.least[i] <= 0) continue;
+    if (sparsity_.least[i] <= 0) continue;
     const double relaxed =
-        thrift_.least[i] > kMostToll ? 1 : kRelaxed;  // a mood is not made of little
+        sparsity_.least[i] > kMostToll ? 1 : kRelaxed;  // a mood is not made of little
     highs_[i] = std::max(free, std::clamp(relaxed * worth[i], 0.0, 1.0));
   }
 }
@@ -283,7 +282,7 @@ const std::vector<double>& BoundedFit::fit(const Mask& mask, const FapValues& ta
     wanted[i] += steadiness * costs_[i] * weights_[i];
   }
   descend(wanted, steadiness, 0);
-  if (!thrift_.least.empty()) {
+  if (!sparsity_.least.empty()) {
     choose_few(wanted, steadiness, residual(target));
     descend(wanted, steadiness, 0);
   }

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <initializer_list>
 #include <optional>
-#include <vector>
 
 namespace animeme::fap {
 namespace {

@@ -1,7 +1,6 @@
 #include "fap/players.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cstdint>
 #include <optional>

@@ -1,7 +1,5 @@
 #include "fap/receiver.h"
 
-#include <cstddef>
-
 #include "fap/tables.h"
 
 namespace animeme::fap {

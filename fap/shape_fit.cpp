@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "fap/detail/arkit_thrift.h"
+#include "fap/detail/arkit_sparsity.h"
 #include "fap/detail/bounded_fit.h"
 
 namespace animeme::fap {
@@ -44,7 +44,7 @@ ShapeFitter::ShapeFitter(std::span<const Frame> shapes, const LipMeasures& lips,
                          std::span<const std::optional<int>> arkit)
     : impl_(new Impl{{weights_of(shapes), ridge, 0, std::numeric_limits<double>::infinity(),
                       kEyeRadius, lips_of(lips)}}) {
-  if (arkit.size() == shapes.size()) impl_->fit.set_thrift(internal::thrift_of(arkit, 1));
+  if (arkit.size() == shapes.size()) impl_->fit.set_sparsity(internal::sparsity_of(arkit, 1));
 }
 ShapeFitter::ShapeFitter(ShapeFitter&&) noexcept = default;
 ShapeFitter& ShapeFitter::operator=(ShapeFitter&&) noexcept = default;

@@ -1,7 +1,6 @@
 #include "fap/text.h"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 #include "fap/detail/text_frame.h"

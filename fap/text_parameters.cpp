@@ -3,7 +3,6 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <string>
 #include <utility>
 
 #include "fap/detail/real_text.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include "codec/decode/decoder.h"
 #include "codec/syntax/bits.h"

@@ -20,7 +20,7 @@ using internal::Row;
 using internal::Run;
 
 constexpr double kLeastBudget = 1;       // bits: as few as can be
-constexpr std::size_t kMaxRetries = 40;  // plans tried to avoid traps
+constexpr std::size_t kMaxRetries = 40;  // plans tried to avoid hazards
 
 Result<void> check(const EncodeOptions& options) {
   const auto ok =
@@ -71,11 +71,11 @@ struct Written {
   std::vector<std::uint8_t> stream;
   std::size_t intra_planes = 0;
   std::size_t retries = 0;
-  std::size_t traps = 0;
+  std::size_t hazards = 0;
   std::size_t limited = 0;
 };
 
-// Plans, writes and checks; plans anew if the bits happen to hold traps.
+// Plans, writes and checks; plans anew if the bits happen to hold hazards.
 Result<Written> write(const ClipData& clip, const Decision& wanted, const EncodeOptions& options) {
   Written out;
   internal::PlanOptions plan{
@@ -90,20 +90,20 @@ Result<Written> write(const ClipData& clip, const Decision& wanted, const Encode
       reached = wanted;
       out.limited = internal::limit_levels(clip, begins, reached);
     }
-    Result<std::vector<Run>> runs = plan_runs(clip, decision, begins, plan.trapped);
+    Result<std::vector<Run>> runs = plan_runs(clip, decision, begins, plan.hazardous);
     if (!runs) return runs.error();
     Encoder encoder(options.stream);
     if (auto ok = writer.write(*runs, encoder); !ok) return ok.error();
     encoder.end();
     out.intra_planes = runs->size();
-    const std::vector<std::int64_t> traps = encoder.trap_bits();
-    out.traps = traps.size();
-    if (traps.empty() || out.retries == kMaxRetries) {
+    const std::vector<std::int64_t> hazards = encoder.hazard_bits();
+    out.hazards = hazards.size();
+    if (hazards.empty() || out.retries == kMaxRetries) {
       out.stream = encoder.take();
       break;
     }
-    for (const std::int64_t bit : traps) plan.trapped.push_back(writer.plane_at(bit));
-    std::sort(plan.trapped.begin(), plan.trapped.end());
+    for (const std::int64_t bit : hazards) plan.hazardous.push_back(writer.plane_at(bit));
+    std::sort(plan.hazardous.begin(), plan.hazardous.end());
     ++out.retries;
   }
   if (options.verify) {
@@ -154,7 +154,7 @@ Result<Written> write_smallest(const ClipData& clip, Decision& decision,
   internal::choose_first(clip, with_first);
   if (!with_first.first) return plain;
   Result<Written> kept = write(clip, with_first, options);
-  if (!kept || kept->traps > plain->traps || kept->stream.size() >= plain->stream.size()) {
+  if (!kept || kept->hazards > plain->hazards || kept->stream.size() >= plain->stream.size()) {
     return plain;
   }
   decision = std::move(with_first);
@@ -185,7 +185,7 @@ Result<Written> attempt(const ClipData& clip, const EncodeOptions& options, doub
   report.skipped = clip.planes() - report.planes;
   report.intra_planes = written->intra_planes;
   report.retries = written->retries;
-  report.traps = written->traps;
+  report.hazards = written->hazards;
   return written;
 }
 

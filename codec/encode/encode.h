@@ -91,10 +91,10 @@ struct EncodeReport {
   /// Values beyond the largest range (+-1860 quantiser steps in intra planes and from plane to
   /// plane), replaced by the nearest that can be coded.
   std::size_t limited = 0;
-  std::size_t retries = 0;  ///< number of changes of the ranges to avoid a hazard (Encoder::trap)
+  std::size_t retries = 0;  ///< number of changes of the ranges to avoid a hazard (Encoder::hazard)
   /// Hazards that are left after 40 plans: usually 0; FAP 1 and 2 alone can cause one that no range
   /// change removes, and so can many consecutive values at the limit of the ranges.
-  std::size_t traps = 0;
+  std::size_t hazards = 0;
 };
 
 /// Encodes a clip of a face, a body, or both. FAPs and BAPs absent from a frame keep their last
@@ -104,7 +104,7 @@ struct EncodeReport {
 /// The stream begins with an intra plane; there is another one every `intra_seconds` and wherever a
 /// change is too large for a predictive plane. Every intra plane sends all masks, ranges (except
 /// with kept_ranges) and the rate, so decoding can start there. The stream contains neither false
-/// start codes nor zero runs that mislead old decoders, except for EncodeReport::traps.
+/// start codes nor zero runs that mislead old decoders, except for EncodeReport::hazards.
 ///
 /// Memory: about 10 bytes per plane for each parameter that occurs, with leave_out 600 bytes per
 /// plane (every FAP counts), with max_rms or max_bits_per_second another 400 bytes per plane; and

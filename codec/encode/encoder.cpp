@@ -107,7 +107,7 @@ struct Encoder::Impl : Encoder::Place {
   }
 
   std::vector<std::uint8_t> bytes_and_rest();
-  std::vector<internal::Trap> traps();
+  std::vector<internal::Hazard> hazards();
   void account(std::size_t bytes);  // they have been taken
 
   // First everything that can fail, then the bits.
@@ -290,25 +290,25 @@ std::vector<std::uint8_t> Encoder::Impl::bytes_and_rest() {
   return whole.bytes();
 }
 
-std::vector<internal::Trap> Encoder::Impl::traps() {
-  return out.aligned() ? internal::find_traps(out.bytes(), trace)
-                       : internal::find_traps(bytes_and_rest(), trace);
+std::vector<internal::Hazard> Encoder::Impl::hazards() {
+  return out.aligned() ? internal::find_hazards(out.bytes(), trace)
+                       : internal::find_hazards(bytes_and_rest(), trace);
 }
 
-std::optional<std::string> Encoder::trap() const {
-  const auto traps = impl_->traps();
-  if (traps.empty()) return std::nullopt;
+std::optional<std::string> Encoder::hazard() const {
+  const auto hazards = impl_->hazards();
+  if (hazards.empty()) return std::nullopt;
   constexpr const char* kSentences[] = {"the bits of a plane look like a start code at bit ",
                                         "22 zeros extend past a segment at bit ",
                                         "a start code turns a plane into stuffing at bit "};
-  return kSentences[std::size_t(traps.front().kind)] +
-         std::to_string(impl_->taken_bits + std::int64_t(traps.front().bit));
+  return kSentences[std::size_t(hazards.front().kind)] +
+         std::to_string(impl_->taken_bits + std::int64_t(hazards.front().bit));
 }
 
-std::vector<std::int64_t> Encoder::trap_bits() const {
+std::vector<std::int64_t> Encoder::hazard_bits() const {
   std::vector<std::int64_t> bits;
-  for (const internal::Trap& trap : impl_->traps()) {
-    bits.push_back(impl_->taken_bits + std::int64_t(trap.bit));
+  for (const internal::Hazard& hazard : impl_->hazards()) {
+    bits.push_back(impl_->taken_bits + std::int64_t(hazard.bit));
   }
   return bits;
 }

@@ -83,9 +83,9 @@ class Encoder {
   /// that short skip 0 frames, which makes them longer). Call it after end_unit() or end(), or
   /// after any plane; then it considers every possible continuation. Source: codec/bitstream.md,
   /// sections 1 and 17.
-  std::optional<std::string> trap() const;
+  std::optional<std::string> hazard() const;
   /// Positions of all hazards, ascending, on the scale of bits().
-  std::vector<std::int64_t> trap_bits() const;
+  std::vector<std::int64_t> hazard_bits() const;
   /// Discards what was written since the last take(), or since the beginning. The next plane must
   /// be intra and send all four range sets.
   void drop();

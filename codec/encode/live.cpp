@@ -4,7 +4,6 @@
 
 #include "codec/decode/decoder.h"
 #include "codec/encode/clip_internal.h"
-#include "codec/encode/encoder.h"
 #include "codec/encode/live_settings_internal.h"
 #include "codec/syntax/settings_internal.h"
 
@@ -82,7 +81,7 @@ struct LiveEncoder::Impl : internal::LiveMemory {
     return ok;
   }
 
-  // Predictive if it can be; intra planes in other ranges until their bits hold no trap.
+  // Predictive if it can be; intra planes in other ranges until their bits hold no hazard.
   Result<void> write_best(std::uint32_t skip) {
     const bool due = since_intra < 0 || held.face.mask != face.mask ||
                      (held.has_body && held.body.mask != body.mask) ||
@@ -90,7 +89,7 @@ struct LiveEncoder::Impl : internal::LiveMemory {
     if (!due) {
       if (write_plane(held, false, skip)) {
         last_intra = false;
-        if (!encoder.trap()) return {};
+        if (!encoder.hazard()) return {};
         encoder.drop();
       }
     }
@@ -102,7 +101,7 @@ struct LiveEncoder::Impl : internal::LiveMemory {
       face = internal::settle_face(near, motion, options, young, detour);
       if (held.has_body) body = internal::settle_body(near, motion, options, young, detour);
       if (auto ok = write_plane(near, true, skip); !ok) return ok;
-      if (!encoder.trap() || detour == kMaxDetours) break;
+      if (!encoder.hazard() || detour == kMaxDetours) break;
       encoder.drop();
     }
     motion.next_period();

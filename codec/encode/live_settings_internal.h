@@ -70,7 +70,7 @@ void limit(HeldFrame& held, const LiveOptions& options);
 /// ranges for the motion of late, or wider ones while `young`, when too little has been seen of it.
 /// A `detour` widens intra ranges, of one parameter after the other (from the last coded FAP
 /// backwards, then on over the BAPs): that gives other bits. The first widens one range, the second
-/// four, the third nine: what lies behind a trap in its segment does not move it.
+/// four, the third nine: what lies behind a hazard in its segment does not move it.
 FaceSettings settle_face(const HeldFrame& held, const Motion& motion, const LiveOptions& options,
                          bool young, int detour);
 BodySettings settle_body(const HeldFrame& held, const Motion& motion, const LiveOptions& options,

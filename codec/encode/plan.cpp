@@ -14,11 +14,11 @@ namespace {
 class Planner {
  public:
   Planner(const ClipData& clip, const Decision& decision, const std::vector<std::size_t>& begins,
-          const std::vector<std::size_t>& trapped)
+          const std::vector<std::size_t>& hazardous)
       : clip_(clip),
         decision_(decision),
         begins_(begins),
-        trapped_(trapped),
+        hazardous_(hazardous),
         coded_(coded_channels(decision)) {
     faps_ = std::size_t(std::count_if(coded_.begin(), coded_.end(),
                                       [this](std::size_t i) { return !channel(i).body; }));
@@ -107,12 +107,12 @@ class Planner {
     }
   }
 
-  // How many ranges a run is to have wider. A trap that outlives its detours asks for more each
+  // How many ranges a run is to have wider. A hazard that outlives its detours asks for more each
   // time: ranges behind it in its segment do not move it, and those before it may be many.
   std::size_t detours_of(std::size_t first, std::size_t count) const {
-    const auto begin = std::lower_bound(trapped_.begin(), trapped_.end(), first);
-    const auto end = std::lower_bound(begin, trapped_.end(), first + count);
-    std::ptrdiff_t most = 0;  // times that one plane had a trap
+    const auto begin = std::lower_bound(hazardous_.begin(), hazardous_.end(), first);
+    const auto end = std::lower_bound(begin, hazardous_.end(), first + count);
+    std::ptrdiff_t most = 0;  // times that one plane had a hazard
     for (auto it = begin; it != end;) {
       const auto next = std::upper_bound(it, end, *it);
       most = std::max(most, next - it);
@@ -204,7 +204,7 @@ class Planner {
   const ClipData& clip_;
   const Decision& decision_;
   const std::vector<std::size_t>& begins_;
-  const std::vector<std::size_t>& trapped_;
+  const std::vector<std::size_t>& hazardous_;
   std::vector<std::size_t> coded_;  // channels, FAPs first
   std::size_t faps_ = 0;            // of them
 };
@@ -213,8 +213,8 @@ class Planner {
 
 Result<std::vector<Run>> plan_runs(const ClipData& clip, const Decision& decision,
                                    const std::vector<std::size_t>& begins,
-                                   const std::vector<std::size_t>& trapped) {
-  return Planner(clip, decision, begins, trapped).plan();
+                                   const std::vector<std::size_t>& hazardous) {
+  return Planner(clip, decision, begins, hazardous).plan();
 }
 
 }  // namespace animeme::fba::internal

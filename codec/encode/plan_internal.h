@@ -18,9 +18,9 @@ struct Run {
 struct PlanOptions {
   std::int64_t intra_frames = 0;  // period_frames()
   bool extra_intra = false;
-  // Planes whose bits held a trap, ascending, one entry for each time: the runs that they are in
+  // Planes whose bits held a hazard, ascending, one entry for each time: the runs that they are in
   // get other ranges for the same values, and so other bits.
-  std::vector<std::size_t> trapped;
+  std::vector<std::size_t> hazardous;
 };
 
 /// Planes in which something changes, the first, the last, and so many in between that the rest can
@@ -36,10 +36,10 @@ std::vector<std::size_t> coded_channels(const Decision& decision);
 std::vector<std::size_t> run_begins(const ClipData& clip, const Decision& decision,
                                     const PlanOptions& options);
 
-/// What the planes at `begins`, run_begins(), settle. `trapped`: that of PlanOptions. Error
+/// What the planes at `begins`, run_begins(), settle. `hazardous`: that of PlanOptions. Error
 /// out_of_range if an intra plane cannot hold a value, or 32 bits its reconstruction.
 Result<std::vector<Run>> plan_runs(const ClipData& clip, const Decision& decision,
                                    const std::vector<std::size_t>& begins,
-                                   const std::vector<std::size_t>& trapped);
+                                   const std::vector<std::size_t>& hazardous);
 
 }  // namespace animeme::fba::internal

@@ -21,7 +21,7 @@ class Splitter {
       : clip_(clip), decision_(decision), options_(options), coded_(coded_channels(decision)) {}
 
   Planes begins() const {
-    const Planes needed = split_where_needed(trapped());
+    const Planes needed = split_where_needed(hazardous());
     Planes begins;
     for (std::size_t i = 0; i < needed.size(); ++i) {
       const std::size_t end = i + 1 < needed.size() ? needed[i + 1] : clip_.planes();
@@ -38,12 +38,12 @@ class Splitter {
     return std::span(decision_.rows[i].levels).subspan(first, count);
   }
 
-  // Where other ranges do not help against a trap (there may be no parameter that has any, or all
+  // Where other ranges do not help against a hazard (there may be no parameter that has any, or all
   // are as wide as they can be), an intra plane will.
-  Planes trapped() const {
+  Planes hazardous() const {
     Planes begins = {0};
     if (decision_.first) begins.push_back(1);  // behind the coarse plane
-    const Planes& again = options_.trapped;
+    const Planes& again = options_.hazardous;
     for (auto it = again.begin(); it != again.end();) {
       const auto next = std::upper_bound(it, again.end(), *it);
       if ((coded_.empty() || next - it > kTurnsBeforeIntra) && can_be_intra(*it)) {

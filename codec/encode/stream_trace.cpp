@@ -35,7 +35,7 @@ std::size_t zeros_from(std::span<const std::uint8_t> bytes, std::size_t begin, s
 }
 
 void add_start_codes(std::span<const std::uint8_t> bytes, const StreamTrace& trace,
-                     std::vector<Trap>& traps) {
+                     std::vector<Hazard>& hazards) {
   // 23 zeros at any position hold two whole zero bytes.
   for (std::size_t byte = 0; byte + 1 < bytes.size(); ++byte) {
     if (bytes[byte] != 0 || bytes[byte + 1] != 0) continue;
@@ -48,33 +48,33 @@ void add_start_codes(std::span<const std::uint8_t> bytes, const StreamTrace& tra
         one >= kPrefixZeros &&
         std::binary_search(trace.start_codes.begin(), trace.start_codes.end(), one - kPrefixZeros);
     if (zeros >= kPrefixZeros && !real) {
-      traps.push_back({Trap::Kind::start_code, one - kPrefixZeros});
+      hazards.push_back({Hazard::Kind::start_code, one - kPrefixZeros});
     }
     byte = behind;
   }
 }
 
 void add_look_aheads(std::span<const std::uint8_t> bytes, const StreamTrace& trace,
-                     std::vector<Trap>& traps) {
+                     std::vector<Hazard>& hazards) {
   for (const StreamTrace::Segment& segment : trace.segments) {
     const std::size_t tail = zeros_before(bytes, segment.begin, segment.end);
     if (tail + kLookAhead < std::size_t(kStuffingRun)) continue;
     if (tail + zeros_from(bytes, segment.end, kLookAhead) >= std::size_t(kStuffingRun)) {
-      traps.push_back({Trap::Kind::look_ahead, segment.end - tail});
+      hazards.push_back({Hazard::Kind::look_ahead, segment.end - tail});
     }
   }
 }
 
 }  // namespace
 
-std::vector<Trap> find_traps(std::span<const std::uint8_t> bytes, const StreamTrace& trace) {
-  std::vector<Trap> traps;
-  add_look_aheads(bytes, trace, traps);
-  add_start_codes(bytes, trace, traps);
-  for (const std::size_t bit : trace.lost) traps.push_back({Trap::Kind::lost_plane, bit});
-  std::stable_sort(traps.begin(), traps.end(),
-                   [](const Trap& a, const Trap& b) { return a.bit < b.bit; });
-  return traps;
+std::vector<Hazard> find_hazards(std::span<const std::uint8_t> bytes, const StreamTrace& trace) {
+  std::vector<Hazard> hazards;
+  add_look_aheads(bytes, trace, hazards);
+  add_start_codes(bytes, trace, hazards);
+  for (const std::size_t bit : trace.lost) hazards.push_back({Hazard::Kind::lost_plane, bit});
+  std::stable_sort(hazards.begin(), hazards.end(),
+                   [](const Hazard& a, const Hazard& b) { return a.bit < b.bit; });
+  return hazards;
 }
 
 }  // namespace animeme::fba::internal

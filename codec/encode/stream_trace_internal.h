@@ -27,7 +27,7 @@ struct StreamTrace {
 };
 
 /// A legal pattern that can mislead another decoder.
-struct Trap {
+struct Hazard {
   enum class Kind : std::uint8_t {
     start_code,  // 23 zeros and a 1 that are no start code
     look_ahead,  // 22 zeros from the tail of a segment into the 14 bits behind it
@@ -37,7 +37,7 @@ struct Trap {
   std::size_t bit = 0;  // the first of the zeros, of the plane
 };
 
-/// The traps in `bytes` by their positions; each place once. Linear in the number of bytes.
-std::vector<Trap> find_traps(std::span<const std::uint8_t> bytes, const StreamTrace& trace);
+/// The hazards in `bytes` by their positions; each place once. Linear in the number of bytes.
+std::vector<Hazard> find_hazards(std::span<const std::uint8_t> bytes, const StreamTrace& trace);
 
 }  // namespace animeme::fba::internal

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "codec/encode/clip_internal.h"
 #include "codec/syntax/settings_internal.h"

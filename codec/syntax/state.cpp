@@ -1,4 +1,3 @@
-#include <algorithm>
 
 #include "codec/syntax/state_internal.h"
 

@@ -11,7 +11,6 @@
 #include "fap/detail/text_parameters.h"
 #include "fap/detail/text_writing.h"
 #include "fap/rate_text.h"
-#include "fap/text.h"
 
 namespace animeme::fba {
 

@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cstdlib>
 #include <iterator>
-#include <optional>
 #include <string>
 
 namespace animeme::fba {

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "dam/script/timeline_internal.h"
-#include "dam/signal/closure.h"
 #include "dam/signal/fap_signal.h"
 
 namespace animeme::dam {

@@ -1,7 +1,6 @@
 #include "dam/corpus/train_options.h"
 
 #include <limits>
-#include <string>
 
 namespace animeme::dam {
 namespace {

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "dam/corpus/statistics_internal.h"
 #include "dam/script/phones.h"
-#include "dam/script/timeline_internal.h"
 
 namespace animeme::dam {
 namespace {

@@ -1,7 +1,6 @@
 // Direction, size and FAPs of a face of captured points.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "dam/crossmap/face_points.h"
 #include "fap/detail/text_scanner.h"

@@ -1,7 +1,6 @@
 #include "dam/crossmap/points.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 

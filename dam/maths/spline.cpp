@@ -1,7 +1,6 @@
 #include "dam/maths/spline.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace animeme::dam {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "dam/model/kind_internal.h"
-#include "fap/rate.h"
 
 namespace animeme::dam {
 

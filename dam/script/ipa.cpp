@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <string>
 
 #include "dam/script/ipa_letters_internal.h"
@@ -15,7 +14,7 @@ namespace {
 constexpr char32_t kCedilla = 0x327;  // c with it is a letter
 
 // A letter with its marks.
-struct HeardLetter {
+struct ParsedLetter {
   char32_t letter = 0;
   Features features;
   bool lengthened = false;
@@ -84,7 +83,7 @@ Error unknown_letter(char32_t code) {
                                          "letters of the IPA chart");
 }
 
-void round_end(HeardLetter& heard) {
+void round_end(ParsedLetter& heard) {
   if (heard.features.manner == Manner::vowel) {
     heard.features.rounding = 1;
     heard.changed = true;
@@ -94,7 +93,7 @@ void round_end(HeardLetter& heard) {
 }
 
 // The vowel of "bird" is one sound with its r, others are followed by one.
-void colour(HeardLetter& heard) {
+void colour(ParsedLetter& heard) {
   Features& f = heard.features;
   if (f.manner != Manner::vowel || f.rhotic) return;
   const bool like_bird = f.height > 0.3 && f.height < 0.6 && f.backness == 0.5 && f.rounding == 0;
@@ -106,7 +105,7 @@ void colour(HeardLetter& heard) {
   }
 }
 
-void make_glide(HeardLetter& heard) {
+void make_glide(ParsedLetter& heard) {
   const Features& f = heard.features;
   if (f.manner != Manner::vowel || f.height < 0.8) return;
   const char32_t letter = f.rounding < 0.5 ? U'j' : f.backness < 0.36 ? U'ɥ' : U'w';
@@ -115,7 +114,7 @@ void make_glide(HeardLetter& heard) {
 }
 
 // Raised as in Czech ř, an r becomes a fricative.
-void raise(HeardLetter& heard, double by) {
+void raise(ParsedLetter& heard, double by) {
   Features& f = heard.features;
   heard.changed = true;
   if (f.manner == Manner::vowel) f.height = std::clamp(f.height + by, 0.0, 1.0);
@@ -126,7 +125,7 @@ void raise(HeardLetter& heard, double by) {
   }
 }
 
-void change(HeardLetter& heard, IpaMark mark) {
+void change(ParsedLetter& heard, IpaMark mark) {
   constexpr double kStep = 0.1, kLipStep = 0.3;
   Features& f = heard.features;
   const Features before = f;
@@ -150,8 +149,8 @@ void change(HeardLetter& heard, IpaMark mark) {
 // A raised nasal behind a letter is how that one ends.
 bool is_release(char32_t code) { return code == U'ⁿ' || code == U'ᵐ' || code == U'ᵑ'; }
 
-Result<std::vector<HeardLetter>> hear(std::u32string_view codes) {
-  std::vector<HeardLetter> heard;
+Result<std::vector<ParsedLetter>> hear(std::u32string_view codes) {
+  std::vector<ParsedLetter> heard;
   for (const char32_t code : codes) {
     if (const IpaLetter* letter = find_ipa_letter(code)) {
       if (is_release(code) && !heard.empty()) continue;
@@ -177,10 +176,10 @@ constexpr EnglishSpelling kEnglish[] = {{U"ɜː", "ER", {}},
                                         {U"əʊ", "OW", {}},
                                         {U"oːɹ", "AO", "R"}};
 
-using Heard = std::span<const HeardLetter>;
+using Letters = std::span<const ParsedLetter>;
 
 // How many letters of `heard` the spelling takes; 0: it is another one.
-std::size_t spelled(Heard heard, std::u32string_view letters) {
+std::size_t spelled(Letters heard, std::u32string_view letters) {
   std::size_t count = 0;
   for (const char32_t letter : letters) {
     if (letter == U'ː') {
@@ -199,7 +198,7 @@ struct Match {
   std::string_view label, second;
 };
 
-Match match_spelling(Heard heard) {
+Match match_spelling(Letters heard) {
   Match best;
   const auto offer = [&](std::u32string_view letters, std::string_view label,
                          std::string_view second) {
@@ -230,7 +229,7 @@ std::string_view affricate_of(const Features& stop, const Features& end) {
 
 // Two vowels that are one movement of ARPAbet, seen from the front: where the first is, and that
 // the second is a close one. Lips distinguish u from i, but hardly show backness.
-std::string_view diphthong_of(const HeardLetter& first, const HeardLetter& second) {
+std::string_view diphthong_of(const ParsedLetter& first, const ParsedLetter& second) {
   constexpr double kNear = 0.52, kNearEnd = 0.4, kOfSide = 0.3, kOpen = 0.2;
   const auto gap = [](const Features& a, const Features& b) {
     return 2 * std::abs(std::max(a.rounding, 0.0) - b.rounding) +
@@ -263,14 +262,14 @@ void add(std::vector<IpaSound>& sounds, IpaSound sound) {
   if (sounds.empty() || sounds.back().label != sound.label) sounds.push_back(std::move(sound));
 }
 
-std::vector<Features> features_of(Heard heard) {
+std::vector<Features> features_of(Letters heard) {
   std::vector<Features> features;
-  for (const HeardLetter& one : heard) features.push_back(one.features);
+  for (const ParsedLetter& one : heard) features.push_back(one.features);
   return features;
 }
 
 // Adds the sound that `heard` begins with; how many letters it has.
-std::size_t add_sound(Heard heard, std::vector<IpaSound>& sounds) {
+std::size_t add_sound(Letters heard, std::vector<IpaSound>& sounds) {
   const Match found = match_spelling(heard);
   if (found.letters < 2 && heard.size() > 1) {
     std::string_view label = affricate_of(heard[0].features, heard[1].features);
@@ -284,7 +283,7 @@ std::size_t add_sound(Heard heard, std::vector<IpaSound>& sounds) {
     add(sounds, {nearest_phone(heard[0].features), false, features_of(heard.first(1))});
     return 1;
   }
-  const Heard said = heard.first(found.letters);
+  const Letters said = heard.first(found.letters);
   add(sounds, {found.label, true, features_of(found.second.empty() ? said : said.first(1))});
   add(sounds, {found.second, true, features_of(said.last(1))});
   return found.letters;
@@ -307,8 +306,8 @@ Result<std::vector<IpaSound>> parse_ipa_sounds(std::string_view text, std::size_
   std::vector<IpaSound> sounds;
   for (std::size_t at = 0; at < heard->size();) {
     const std::size_t first = at;
-    at += add_sound(Heard(*heard).subspan(at), sounds);
-    const HeardLetter& last = (*heard)[at - 1];
+    at += add_sound(Letters(*heard).subspan(at), sounds);
+    const ParsedLetter& last = (*heard)[at - 1];
     if (last.after == "W") add(sounds, {"W", false, {find_ipa_letter(U'w')->features}});
     if (last.after == "R") add(sounds, {"R", false, {find_ipa_letter(U'ɹ')->features}});
     // "ph", "tʃh", "tsh": breath behind a stop.

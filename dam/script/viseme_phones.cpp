@@ -1,6 +1,5 @@
 #include "dam/script/viseme_phones.h"
 
-#include <algorithm>
 #include <span>
 
 namespace animeme::dam {

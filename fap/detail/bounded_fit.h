@@ -35,7 +35,7 @@ struct Lips {
 using Opponents = std::pair<std::size_t, std::size_t>;
 
 /// How few shapes are used.
-struct Thrift {
+struct Sparsity {
   /// By shape: it is used where it brings the face nearer by more than this, a length in the units
   /// of the fit (about 1.07 cm), all FAPs together, but at most a quarter of what it does at weight
   /// 1, or that share of it if that is more. 0, or empty for all: wherever it brings the face
@@ -71,7 +71,7 @@ class BoundedFit {
   const std::vector<double>& fit(const Mask& mask, const FapValues& target);
 
   /// From the next frame on.
-  void set_thrift(Thrift thrift) { thrift_ = std::move(thrift); }
+  void set_sparsity(Sparsity sparsity) { sparsity_ = std::move(sparsity); }
 
   /// Forgets the frame before.
   void restart();
@@ -92,7 +92,7 @@ class BoundedFit {
   double steadiness_;
   double most_;
   Lips lips_;  // in lengths
-  Thrift thrift_;
+  Sparsity sparsity_;
   FapValues lengths_;               // of one unit of each FAP
   std::vector<FapValues> columns_;  // what each shape does, weighed, for mask_
   std::vector<double> gram_;        // shapes x shapes, for mask_

@@ -21,7 +21,7 @@
 
 #include "fap/fapu.h"
 #include "fap/frame.h"
-#include "fap/head/coat.h"
+#include "fap/head/material.h"
 #include "fap/head/vector.h"
 #include "fap/result.h"
 
@@ -31,21 +31,21 @@ namespace animeme::head {
 using Triangle = std::array<std::uint32_t, 3>;  ///< counterclockwise seen from outside
 
 /// Built-in shading of a surface. Colours are those of the vertices.
-enum class Material : std::uint8_t { skin, eye, teeth, wet, hair, cloth };
+enum class SurfaceKind : std::uint8_t { skin, eye, teeth, wet, hair, cloth };
 
 /// Triangles with a colour per vertex. The vectors of vertices have the same length.
 struct Mesh {
-  std::vector<Vec3> positions;         ///< cm
-  std::vector<Triangle> triangles;     ///< counterclockwise, seen from outside
-  std::vector<Vec3> colours;           ///< linear RGB, 0..1
-  std::vector<float> occlusion;        ///< ambient occlusion; 1: unoccluded
-  Material material = Material::skin;  ///< see Material
-  /// How it is drawn if the head has coats, else empty. Facets are triangles of corners, in the
-  /// order of `triangles`, followed by the veils: mostly transparent triangles, which are drawn,
+  std::vector<Vec3> positions;              ///< cm
+  std::vector<Triangle> triangles;          ///< counterclockwise, seen from outside
+  std::vector<Vec3> colours;                ///< linear RGB, 0..1
+  std::vector<float> occlusion;             ///< ambient occlusion; 1: unoccluded
+  SurfaceKind surface = SurfaceKind::skin;  ///< see SurfaceKind
+  /// How it is drawn if the head has materials, else empty. Facets are triangles of corners, in the
+  /// order of `triangles`, followed by the mostly transparent triangles, which are drawn,
   /// but neither move nor shade anything.
   std::vector<Corner> corners;
-  std::vector<Triangle> facets;      ///< indices of `corners`
-  std::vector<std::uint16_t> coats;  ///< of each facet, index of Head::coats
+  std::vector<Triangle> facets;          ///< indices of `corners`
+  std::vector<std::uint16_t> materials;  ///< of each facet, index of Head::materials
 };
 
 /// The meshes of a head.
@@ -145,7 +145,7 @@ struct Head {
   std::string name;                    ///< for people
   double centimetres = 1;              ///< per unit of the file that it comes from
   std::array<Mesh, kPartCount> parts;  ///< by Part; absent ones are empty
-  std::vector<Coat> coats;             ///< materials of heads from files; empty: Mesh::colours
+  std::vector<Material> materials;     ///< of heads from files; empty: Mesh::colours
   std::array<Eye, 2> eyes;             ///< left, right
   /// All 84 points of the standard, in the order of fap::kFeaturePoints. 7.1, the top of the spine,
   /// is not a vertex but neck_pivot.

@@ -1,7 +1,6 @@
 #include "fap/head/obj.h"
 
 #include <charconv>
-#include <cmath>
 #include <cstdio>
 #include <optional>
 

@@ -153,7 +153,7 @@ class Assembler {
     for (std::size_t i = 0; i < source_.pieces.size(); ++i) add_piece(i);
     for (std::size_t i = 0; i < source_.pieces.size(); ++i) add_facets(i, false);
     for (std::size_t i = 0; i < source_.pieces.size(); ++i) add_facets(i, true);
-    head_.coats = std::move(source_.coats);
+    head_.materials = std::move(source_.materials);
     for (std::size_t p = 0; p < head_.parts.size(); ++p) {
       Mesh& mesh = head_.parts[p];
       // Shadows are either known for a whole part or found for all of it.
@@ -191,12 +191,14 @@ class Assembler {
     }
   }
 
-  // The triangles of a piece as they are drawn, or its veils, which lie behind those of all pieces.
-  void add_facets(std::size_t i, bool veils) {
+  // The triangles of a piece as they are drawn, or its transparent ones, which follow those of all
+  // pieces.
+  void add_facets(std::size_t i, bool transparent) {
     const Mesh& from = source_.pieces[i].mesh;
     const std::size_t solid = std::min(from.triangles.size(), from.facets.size());
     std::vector<std::uint32_t> numbers(from.corners.size(), kMissing);  // in the part
-    for (std::size_t f = veils ? solid : 0; f < (veils ? from.facets.size() : solid); ++f) {
+    for (std::size_t f = transparent ? solid : 0; f < (transparent ? from.facets.size() : solid);
+         ++f) {
       const std::uint8_t part = parts_[i][from.corners[from.facets[f][0]].vertex];
       if (part >= kPartCount) continue;
       Mesh& mesh = head_.parts[part];
@@ -211,7 +213,7 @@ class Assembler {
         facet[k] = numbers[corner];
       }
       mesh.facets.push_back(facet);
-      mesh.coats.push_back(from.coats[f]);
+      mesh.materials.push_back(from.materials[f]);
     }
   }
 

@@ -57,7 +57,7 @@ struct PieceTarget {
 struct Source {
   std::string name;                         ///< becomes Head::name
   std::vector<Piece> pieces;                ///< at least one
-  std::vector<Coat> coats;                  ///< if there are any, each piece has facets
+  std::vector<Material> materials;          ///< if there are any, each piece has facets
   std::vector<PiecePoint> points;           ///< feature points named in the file
   std::optional<fap::Fapu> fapu;            ///< in units of the file; else measured on the points
   std::vector<ShapeControl> shapes;         ///< see Head::shapes

@@ -75,7 +75,7 @@ struct Rig {
   struct Shape {
     std::vector<Vec3> positions;      ///< cm
     std::vector<Vec3> normals;        ///< length 1
-    std::vector<Triangle> triangles;  ///< as in the mesh, then its veils
+    std::vector<Triangle> triangles;  ///< as in the mesh, then the transparent ones
   };
   std::array<Shape, kPartCount> parts;  ///< neutral
   std::vector<Target> targets;          ///< by control, then by part

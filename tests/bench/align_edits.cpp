@@ -98,7 +98,7 @@ void print_long(const std::string& what, const LongSpeech& speech) {
     if (in_place == 5) again = word.start - speech.strange_end;
   }
   std::size_t missing = 0, noticed = 0, in_vain = 0;
-  std::vector<bool> used(found->put_in.size());
+  std::vector<bool> used(found->inserted.size());
   for (std::size_t i = 0; i < speech.words.size(); ++i) {
     if (speech.words[i].written) continue;
     ++missing;
@@ -106,14 +106,14 @@ void print_long(const std::string& what, const LongSpeech& speech) {
     const double to = i + 1 < speech.words.size() ? speech.words[i + 1].start : from + 0.5;
     bool seen = false;
     for (std::size_t k = 0; k < used.size(); ++k) {
-      const voice::PutIn& one = found->put_in[k];
+      const voice::Insertion& one = found->inserted[k];
       if (one.start >= to || one.end <= from) continue;
       seen = used[k] = true;
     }
     noticed += seen ? 1 : 0;
   }
   for (std::size_t k = 0; k < used.size(); ++k) {
-    const voice::PutIn& one = found->put_in[k];
+    const voice::Insertion& one = found->inserted[k];
     const bool strange = one.start < speech.strange_end && one.end > speech.strange_start;
     in_vain += used[k] || strange ? 0 : 1;
   }

@@ -124,7 +124,7 @@ void print_distances(const std::string& language, const Distances& sum) {
 struct Kind {
   std::size_t recordings = 0, refused = 0;
   std::size_t words = 0, out = 0, doubted = 0;  // said words; taken for left out, doubted
-  std::size_t put_in = 0;                       // stretches that no text lacks
+  std::size_t inserted = 0;                     // stretches that no text lacks
   std::size_t noticed = 0, neighbour = 0;       // the word, or the one beside it
 };
 
@@ -159,13 +159,13 @@ void count(const Result<voice::Alignment>& found, std::size_t missing, std::size
     kind.doubted += doubted ? 1 : 0;
     beside = beside || (told && missing != kNobody && (i + 1 == missing || i == missing + 1));
   }
-  for (const voice::PutIn& one : found->put_in) {
+  for (const voice::Insertion& one : found->inserted) {
     const bool right = lacking != kNobody && one.before == lacking;
     const bool near =
         lacking != kNobody && (one.before + 1 == lacking || one.before == lacking + 1);
     noticed = noticed || right;
     beside = beside || near;
-    kind.put_in += right || near ? 0 : 1;
+    kind.inserted += right || near ? 0 : 1;
   }
   kind.noticed += noticed ? 1 : 0;
   kind.neighbour += !noticed && beside ? 1 : 0;
@@ -174,7 +174,7 @@ void count(const Result<voice::Alignment>& found, std::size_t missing, std::size
 void print(const char* what, const Kind& kind) {
   std::printf("| %s | %zu | %zu | %zu | %zu | %zu | %zu | %zu | %zu |\n", what, kind.recordings,
               kind.refused, kind.noticed, kind.neighbour, kind.words, kind.out, kind.doubted,
-              kind.put_in);
+              kind.inserted);
 }
 
 }  // namespace

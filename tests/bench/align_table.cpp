@@ -34,7 +34,8 @@ void print(const std::string& what, const Score& score) {
 
 void score_noises(const std::vector<Sentence>& sentences, const std::vector<double>& levels) {
   std::printf(
-      "| noise | median ms | mean | 90 %% within | bias | shortest %% | false pauses s | none |\n"
+      "| noise | median ms | mean | 90 %% within | bias | phones of minimum length %% | false "
+      "pauses s | not aligned |\n"
       "|---|---|---|---|---|---|---|---|\n");
   const auto voices = voices_of(sentences);
   const auto all = [&](const std::string& what, auto make) {
@@ -86,7 +87,7 @@ void score_texts(const std::vector<Sentence>& sentences, std::vector<double> lev
   std::vector<Trial> trials;
   for (const double db : levels) {
     const std::string level = db < 100 ? std::to_string(int(db)) + " dB" : "clean";
-    Trial right{"right text, " + level}, wrong{"text of another sentence, " + level};
+    Trial right{"correct text, " + level}, wrong{"text of another sentence, " + level};
     for (std::size_t i = 0; i < sentences.size(); ++i) {
       const Sentence& one = sentences[i];
       const media::Pcm sound{16000,
@@ -99,7 +100,7 @@ void score_texts(const std::vector<Sentence>& sentences, std::vector<double> lev
     trials.push_back(wrong);
   }
   for (const Noise kind : kNoises) {
-    Trial noise{"nothing but noise, " + std::string(name_of(kind))};
+    Trial noise{"only noise, " + std::string(name_of(kind))};
     for (std::size_t i = 0; i < sentences.size(); ++i) {
       auto sound = make_noise(kind, 48000, i + 1, voices);
       for (float& sample : sound) sample *= 0.05f;

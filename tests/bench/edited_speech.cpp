@@ -176,7 +176,7 @@ void EditScore::add(const EditedSpeech& speech, const Result<voice::Alignment>& 
       ++false_out;
     }
   }
-  for (const voice::PutIn& one : alignment->put_in) {
+  for (const voice::Insertion& one : alignment->inserted) {
     const double shared = std::min(one.end, speech.end) - std::max(one.start, speech.start);
     if (more && shared > 0.3 * (speech.end - speech.start)) {
       noticed = true;

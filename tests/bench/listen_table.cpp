@@ -14,7 +14,7 @@
 #include "dam/speaking/readings.h"
 #include "tests/bench/listen_material.h"
 #include "tests/bench/noises.h"
-#include "tools/speech/talking/heard_face.h"
+#include "tools/speech/talking/voice_driven_face.h"
 #include "tools/speech/voice/align.h"
 #include "tools/speech/voice/listen.h"
 
@@ -165,16 +165,16 @@ std::optional<Made> by_sound(const dam::Model& model, const Voice& row,
                              const voice::ListenOptions& options) {
   const auto heard = need(voice::listen(row.sound, options));
   std::vector<std::string> words;
-  for (const voice::HeardWord& word : heard.words) words.push_back(word.text);
+  for (const voice::RecognisedWord& word : heard.words) words.push_back(word.text);
   return Made{need(dam::synthesise_readings(model, heard.readings, heard.script, fitting(row))),
               heard.script, std::move(words)};
 }
 
 std::optional<Made> live(const dam::Model& model, const Voice& row, double delay) {
-  speech::HeardFaceOptions options;
+  speech::VoiceDrivenFaceOptions options;
   options.synthesis.rate = row.sentence.signal.rate;
   options.delay = delay;
-  auto face = need(speech::HeardFace::open(model, row.sound.sample_rate, options));
+  auto face = need(speech::VoiceDrivenFace::open(model, row.sound.sample_rate, options));
   face->push(row.sound.samples);
   auto motion = need(face->pull());
   const auto rest = need(face->finish());
@@ -224,9 +224,10 @@ int main(int argc, char** argv) {
   const dam::Model& model = material.model;
   const std::string& language = choice.language;
   std::printf(
-      "%zu sentences\n\n| from | NRMSE | gap corr | mouth right %% | P B M heard %% | lips closed "
+      "%zu sentences\n\n| from | NRMSE | gap corr | mouth shape correct %% | P B M recognised %% | "
+      "lips closed "
       "%% "
-      "| P B M heard in vain | false closures a minute | velocity | words wrong %% | x real time "
+      "| false P B M | false closures a minute | velocity | words wrong %% | x real time "
       "|\n"
       "|---|---|---|---|---|---|---|---|---|---|---|\n",
       material.rows.size());
@@ -254,14 +255,14 @@ int main(int argc, char** argv) {
           [&](const Voice& row) { return by_sound(model, row, own); });
   }
   if (brief) return 0;
-  print(material, "sound, best guess alone", [&](const Voice& row) {
+  print(material, "sound, best hypothesis", [&](const Voice& row) {
     return by_script(model, row, need(voice::listen(row.sound, own)).script);
   });
-  if (language == "en") sound("sound, phones alone", phones);
-  if (language == "en") sound("sound, as of any language", other);
+  if (language == "en") sound("sound, without words", phones);
+  if (language == "en") sound("sound, without a language", other);
   for (const double delay : delays) {
     char name[64];
-    std::snprintf(name, sizeof name, "sound as it comes, %.2f s late", delay);
+    std::snprintf(name, sizeof name, "live sound, delay %.2f s", delay);
     print(material, name, [&](const Voice& row) { return live(model, row, delay); });
   }
   return 0;

@@ -96,7 +96,7 @@ int run(const std::string& folder, const std::string& others, const std::string&
   std::printf("| method");
   for (const char* column : columns)
     std::printf(
-        " | `%s`: NRMSE / L2 / corr | more than `dam` (95 %%) | gap RMSE / corr | "
+        " | `%s`: NRMSE / L2 / corr | relative to `dam` (95 %%) | gap RMSE / corr | "
         "P B M closed (false a minute)",
         column);
   std::printf(" | training, s%s |\n", others.empty() ? "" : " | other speakers: gap corr");
@@ -235,7 +235,7 @@ int run_little(const std::string& folder, const std::string& controls, double se
   for (int d = 0; d < kDraws; ++d) draws.push_back(some_of(rows, seconds, random));
   std::printf(
       "| trained on %.0f s of speech (%zu to %zu sentences, %d draws) | NRMSE: mean | "
-      "least | most |\n|---|---|---|---|\n",
+      "min | max |\n|---|---|---|---|\n",
       seconds, std::min_element(draws.begin(), draws.end(), shorter)->size(),
       std::max_element(draws.begin(), draws.end(), shorter)->size(), kDraws);
   for (const Variant& variant : variants()) {
@@ -348,9 +348,9 @@ int run_words(const std::string& folder, const std::string& controls, std::size_
     std::printf("\n");
   }
   std::printf(
-      "\n| method | inside words never heard: mean NRMSE | least | most | more than `dam` (95 %%) "
+      "\n| method | inside words held out: mean NRMSE | min | max | relative to `dam` (95 %%) "
       "| "
-      "whole sentences with such words | more than `dam` (95 %%) "
+      "whole sentences with such words | relative to `dam` (95 %%) "
       "|\n|---|---|---|---|---|---|---|\n");
   std::optional<WordScores> first;
   for (const Variant& variant : methods) {

@@ -1,4 +1,4 @@
-// encode(): the file preset, the error and rate limits, and the traps it avoids.
+// encode(): the file preset, the error and rate limits, and the hazards it avoids.
 #include "codec/encode/encode.h"
 
 #include <gtest/gtest.h>
@@ -240,7 +240,7 @@ TEST(Encode, AFapThatTheClipDoesNotHaveStaysAtRest) {
   EXPECT_EQ(shown(*small)[19].value[4], 0);
 }
 
-TEST(Encode, ParametersThatComeToRestDoNotKeepTraps) {
+TEST(Encode, ParametersThatComeToRestDoNotKeepHazards) {
   // Forty FAPs fall once and rest: their 0 is then the highest symbol, and the planes are all
   // zeros. One climbs beyond what an intra plane can hold, so that there can be none.
   fap::Sequence clip;
@@ -256,7 +256,7 @@ TEST(Encode, ParametersThatComeToRestDoNotKeepTraps) {
   ASSERT_TRUE(stream) << stream.error().describe();
   EXPECT_GT(report.retries, 0U);
   EXPECT_LT(report.retries, 10U) << "detours that make zeros instead of ending them";
-  EXPECT_EQ(report.traps, 0U);
+  EXPECT_EQ(report.hazards, 0U);
 }
 
 TEST(Encode, NeverAnIntraRangeOfZeroForFap4) {

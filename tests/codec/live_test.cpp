@@ -171,7 +171,7 @@ TEST(LiveEncoder, RangesOfAClipHoldIt) {
   for (const int quant : {1, 2, 5, 31}) {
     const Sent sent =
         send(clip, {.fap_quant = quant, .intra_seconds = 0, .ranges = fba::ranges_of(clip, quant)});
-    // One more where the bits of a plane held a trap.
+    // One more where the bits of a plane held a hazard.
     EXPECT_LE(std::count(sent.intra.begin(), sent.intra.end(), true), 2) << quant;
   }
 }
@@ -181,7 +181,7 @@ TEST(LiveEncoder, PeriodsAreSecondsAtAnyRate) {
     fba::LiveEncoder encoder({.rate = rate, .intra_seconds = 2});
     const int period = int(std::lround(2 * rate.frames_per_second()));
     const fap::Sequence clip = calm_clip(3 * period);
-    int early = 0;  // where the bits of a plane held a trap
+    int early = 0;  // where the bits of a plane held a hazard
     int since = 0;
     for (int i = 0; i < 3 * period; ++i, ++since) {
       ASSERT_TRUE(encoder.write(clip.frames[std::size_t(i)]));

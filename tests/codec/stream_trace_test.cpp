@@ -1,4 +1,4 @@
-// Traps: bits that are legal and lead other decoders astray. First where they are found, then
+// Hazards: bits that are legal and lead other decoders astray. First where they are found, then
 // that encode() and LiveEncoder go around them.
 #include "codec/encode/stream_trace_internal.h"
 
@@ -16,9 +16,9 @@
 namespace animeme {
 namespace stream_trace_test {
 
-using fba::internal::find_traps;
+using fba::internal::find_hazards;
+using fba::internal::Hazard;
 using fba::internal::StreamTrace;
-using fba::internal::Trap;
 using Bytes = std::vector<std::uint8_t>;
 
 // Bits as text, filled up with ones.
@@ -37,24 +37,24 @@ class Alignment : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(Alignment, FindsAFalseStartCode) {
   const std::size_t at = GetParam() + 1;
-  const auto traps = find_traps(bytes_of(ones(at) + zeros(23) + "1"), {});
-  ASSERT_EQ(traps.size(), 1U);
-  EXPECT_EQ(traps[0].kind, Trap::Kind::start_code);
-  EXPECT_EQ(traps[0].bit, at);
+  const auto hazards = find_hazards(bytes_of(ones(at) + zeros(23) + "1"), {});
+  ASSERT_EQ(hazards.size(), 1U);
+  EXPECT_EQ(hazards[0].kind, Hazard::Kind::start_code);
+  EXPECT_EQ(hazards[0].bit, at);
   // More zeros are one all the more; the code is made of the last 23.
-  const auto longer = find_traps(bytes_of(ones(at) + zeros(40) + "1"), {});
+  const auto longer = find_hazards(bytes_of(ones(at) + zeros(40) + "1"), {});
   ASSERT_EQ(longer.size(), 1U);
   EXPECT_EQ(longer[0].bit, at + 40 - 23);
 }
 
 TEST_P(Alignment, TwentyTwoZerosAreNoStartCode) {
-  EXPECT_TRUE(find_traps(bytes_of(ones(GetParam() + 1) + zeros(22) + "1"), {}).empty());
-  EXPECT_TRUE(find_traps(bytes_of(zeros(22) + "1"), {}).empty());
+  EXPECT_TRUE(find_hazards(bytes_of(ones(GetParam() + 1) + zeros(22) + "1"), {}).empty());
+  EXPECT_TRUE(find_hazards(bytes_of(zeros(22) + "1"), {}).empty());
 }
 
 TEST_P(Alignment, ZerosUpToTheEndAreNoStartCode) {
   const std::size_t at = GetParam();
-  EXPECT_TRUE(find_traps(bytes_of(ones(at) + zeros(64 - at)), {}).empty());
+  EXPECT_TRUE(find_hazards(bytes_of(ones(at) + zeros(64 - at)), {}).empty());
 }
 
 TEST_P(Alignment, KnowsRealStartCodes) {
@@ -62,13 +62,13 @@ TEST_P(Alignment, KnowsRealStartCodes) {
   StreamTrace trace;
   trace.start_codes = {at};
   const std::string code = zeros(23) + "1" + "10111011";
-  EXPECT_TRUE(find_traps(bytes_of(ones(at) + code), trace).empty());
+  EXPECT_TRUE(find_hazards(bytes_of(ones(at) + code), trace).empty());
   // Zeros before it do not make it another one, a second one is not excused by it.
   trace.start_codes = {at + 9};
-  EXPECT_TRUE(find_traps(bytes_of(ones(at) + zeros(9) + code), trace).empty());
-  const auto traps = find_traps(bytes_of(ones(at) + zeros(9) + code + zeros(23) + "1"), trace);
-  ASSERT_EQ(traps.size(), 1U);
-  EXPECT_EQ(traps[0].bit, at + 9 + 32);
+  EXPECT_TRUE(find_hazards(bytes_of(ones(at) + zeros(9) + code), trace).empty());
+  const auto hazards = find_hazards(bytes_of(ones(at) + zeros(9) + code + zeros(23) + "1"), trace);
+  ASSERT_EQ(hazards.size(), 1U);
+  EXPECT_EQ(hazards[0].bit, at + 9 + 32);
 }
 
 TEST_P(Alignment, FindsZerosThatReachPastASegment) {
@@ -78,14 +78,14 @@ TEST_P(Alignment, FindsZerosThatReachPastASegment) {
     StreamTrace trace;
     trace.segments = {{begin, begin + segment.size()}};
     const auto traps_behind = [&](const std::string& behind) {
-      return find_traps(bytes_of(ones(begin) + segment + behind), trace);
+      return find_hazards(bytes_of(ones(begin) + segment + behind), trace);
     };
     EXPECT_TRUE(traps_behind(zeros(21 - std::min<std::size_t>(tail, 21)) + "1").size() ==
                 (tail == 22 ? 1U : 0U))
         << tail;
     const auto found = traps_behind(zeros(22 - tail) + "1");
     ASSERT_EQ(found.size(), 1U) << tail;
-    EXPECT_EQ(found[0].kind, Trap::Kind::look_ahead);
+    EXPECT_EQ(found[0].kind, Hazard::Kind::look_ahead);
     EXPECT_EQ(found[0].bit, begin + 4);
   }
 }
@@ -95,27 +95,28 @@ TEST_P(Alignment, LooksNoFurtherThanFourteenBits) {
   const std::size_t begin = GetParam();
   StreamTrace trace;
   trace.segments = {{begin, begin + 8}};
-  EXPECT_TRUE(find_traps(bytes_of(ones(begin) + "1" + zeros(7) + zeros(15) + "1"), trace).empty());
+  EXPECT_TRUE(
+      find_hazards(bytes_of(ones(begin) + "1" + zeros(7) + zeros(15) + "1"), trace).empty());
   trace.segments = {{begin + 1, begin + 8}};
-  EXPECT_TRUE(find_traps(bytes_of(ones(begin) + zeros(8) + zeros(14) + "1"), trace).empty());
+  EXPECT_TRUE(find_hazards(bytes_of(ones(begin) + zeros(8) + zeros(14) + "1"), trace).empty());
 }
 
 INSTANTIATE_TEST_SUITE_P(Bits, Alignment, testing::Range<std::size_t>(0, 8));
 
-TEST(Traps, AStartCodeIsToFollowTheLastByte) {
+TEST(Hazards, AStartCodeIsToFollowTheLastByte) {
   StreamTrace trace;
   trace.segments = {{0, 32}};
-  EXPECT_EQ(find_traps(bytes_of(ones(24) + zeros(8)), trace).size(), 1U);
-  EXPECT_TRUE(find_traps(bytes_of(ones(25) + zeros(7)), trace).empty());
+  EXPECT_EQ(find_hazards(bytes_of(ones(24) + zeros(8)), trace).size(), 1U);
+  EXPECT_TRUE(find_hazards(bytes_of(ones(25) + zeros(7)), trace).empty());
 }
 
-TEST(Traps, AllAreFoundInOrder) {
+TEST(Hazards, AllAreFoundInOrder) {
   StreamTrace trace;
   trace.segments = {{0, 10}, {80, 92}};
   const std::string bits = "11" + zeros(22) + "1" + ones(15) + zeros(30) + "1" + ones(9) + "11" +
                            zeros(10) + zeros(12) + "1";
   std::vector<std::size_t> found;
-  for (const Trap& trap : find_traps(bytes_of(bits), trace)) found.push_back(trap.bit);
+  for (const Hazard& hazard : find_hazards(bytes_of(bits), trace)) found.push_back(hazard.bit);
   EXPECT_EQ(found, (std::vector<std::size_t>{2, 47, 82}));
 }
 
@@ -125,7 +126,7 @@ bool bit_at(const Bytes& bytes, std::size_t bit) {
   return bit < bytes.size() * 8 && (bytes[bit / 8] >> (7 - bit % 8) & 1) != 0;
 }
 
-// Traps that can be seen from outside: false start codes, and zeros behind planes.
+// Hazards that can be seen from outside: false start codes, and zeros behind planes.
 std::size_t count_traps(const Bytes& bytes) {
   const auto decoded = fba::decode(bytes);
   EXPECT_TRUE(decoded) << decoded.error().describe();
@@ -186,23 +187,23 @@ fap::Sequence look_ahead_traps(std::uint64_t seed, int frames) {
   return clip;
 }
 
-TEST(Traps, AHeaderMayHoldOne) {
+TEST(Hazards, AHeaderMayHoldOne) {
   fba::EncodeReport report;
   const auto stream = fba::encode(header_trap(), {}, {}, &report);
   ASSERT_TRUE(stream);
   EXPECT_GT(report.retries, 0U) << "not the clip that this test wants";
-  EXPECT_EQ(report.traps, 0U);
+  EXPECT_EQ(report.hazards, 0U);
   EXPECT_EQ(count_traps(*stream), 0U);
 }
 
-TEST(Traps, ABodyHeaderMayHoldOne) {
+TEST(Hazards, ABodyHeaderMayHoldOne) {
   // The first BAP of the last group alone: its mask, gender and coding type are 23 zeros.
   fba::BodyFrame body;
   body.mask.set(fba::kBapOrder[fba::kBapOrder.size() - fba::kBodyGroupSizes.back()]);
   fba::EncodeReport report;
   const auto stream = fba::encode({}, {}, std::span(&body, 1), &report);
   ASSERT_TRUE(stream);
-  EXPECT_EQ(report.traps, 0U);
+  EXPECT_EQ(report.hazards, 0U);
   EXPECT_EQ(count_traps(*stream), 0U);
   fba::LiveEncoder live;
   auto unit = live.write({}, 0, &body);
@@ -212,7 +213,7 @@ TEST(Traps, ABodyHeaderMayHoldOne) {
   EXPECT_EQ(count_traps(*unit), 0U);
 }
 
-TEST(Traps, EncodeAvoidsManyInOneClip) {
+TEST(Hazards, EncodeAvoidsManyInOneClip) {
   // So many that no plan of the whole clip would be free of them by luck.
   std::size_t retries = 0;
   for (const std::uint64_t seed : {1, 2, 3}) {
@@ -221,7 +222,7 @@ TEST(Traps, EncodeAvoidsManyInOneClip) {
     const auto stream = fba::encode(clip, {.intra_seconds = 1 / 25.0}, {}, &report);
     ASSERT_TRUE(stream);
     retries += report.retries;
-    EXPECT_EQ(report.traps, 0U);
+    EXPECT_EQ(report.hazards, 0U);
     EXPECT_EQ(count_traps(*stream), 0U);
     const auto decoded = fba::decode(*stream);
     ASSERT_EQ(decoded->planes.size(), clip.frames.size());
@@ -233,8 +234,8 @@ TEST(Traps, EncodeAvoidsManyInOneClip) {
   EXPECT_GT(retries, 0U) << "not the clips that this test wants";
 }
 
-TEST(Traps, LiveEncoderAvoidsThem) {
-  // The same planes, written without choice, hold traps: the unit would have.
+TEST(Hazards, LiveEncoderAvoidsThem) {
+  // The same planes, written without choice, hold hazards: the unit would have.
   const fap::Sequence clip = look_ahead_traps(1, 2000);
   std::size_t without_choice = 0;
   fba::FaceSettings settings;
@@ -253,8 +254,8 @@ TEST(Traps, LiveEncoderAvoidsThem) {
     plane.face_settings = &settings;
     ASSERT_TRUE(plain.write(plane));
     plain.end_unit();
-    without_choice += plain.trap() ? 1 : 0;
-    EXPECT_EQ(plain.trap().has_value(), !plain.trap_bits().empty());
+    without_choice += plain.hazard() ? 1 : 0;
+    EXPECT_EQ(plain.hazard().has_value(), !plain.hazard_bits().empty());
     plain.take();
     const auto unit = live.write(frame);
     ASSERT_TRUE(unit);
@@ -266,7 +267,7 @@ TEST(Traps, LiveEncoderAvoidsThem) {
   EXPECT_EQ(count_traps(stream), 0U);
 }
 
-TEST(Traps, ADroppedPlaneLeavesNothing) {
+TEST(Hazards, ADroppedPlaneLeavesNothing) {
   fap::Frame frame;
   frame.set(3, 60 * 4);
   fba::FaceSettings settings;

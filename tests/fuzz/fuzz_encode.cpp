@@ -254,7 +254,7 @@ bool bit_at(const Bytes& bytes, std::size_t bit) {
 
 // A start code that the decoder did not take for one, or 22 zeros from a plane's last segment into
 // the 14 bits behind it.
-bool has_trap(const Bytes& bytes, const std::vector<fba::Plane>& planes, bool end_code) {
+bool has_hazard(const Bytes& bytes, const std::vector<fba::Plane>& planes, bool end_code) {
   std::set<std::size_t> real = {0};
   if (end_code) real.insert(bytes.size() * 8 - 32);
   for (const fba::Plane& plane : planes) {
@@ -278,7 +278,7 @@ bool has_trap(const Bytes& bytes, const std::vector<fba::Plane>& planes, bool en
   return false;
 }
 
-// The segments of FAP 1 and 2, next to each other, may hold a trap that no choice of an encoder
+// The segments of FAP 1 and 2, next to each other, may hold a hazard that no choice of an encoder
 // changes.
 bool both_high_level(const std::vector<fba::Plane>& planes) {
   return std::any_of(planes.begin(), planes.end(), [](const fba::Plane& plane) {
@@ -463,8 +463,9 @@ void try_encode(Source& in) {
     require(report.rms <= std::max(options.max_rms, finest), "the error limit is not kept");
     require(report.rms_other <= std::max(options.max_rms, 1.0), "the error limit is not kept");
   }
-  if (has_trap(*bytes, stream->planes, true)) require(report.traps > 0, "a trap is not reported");
-  require(report.traps == 0 || unavoidable(stream->planes), "a trap is left");
+  if (has_hazard(*bytes, stream->planes, true))
+    require(report.hazards > 0, "a hazard is not reported");
+  require(report.hazards == 0 || unavoidable(stream->planes), "a hazard is left");
   if (in.one_in(8)) require(*fba::encode(clip.face, options, clip.body) == *bytes, "not the same");
 }
 
@@ -558,8 +559,8 @@ void try_live(Source& in) {
       check_face(plane.face, expected[i], options.fap_quant);
       if (plane.body) check_body(*plane.body, expected[i], options.bap_quant);
     }
-    require(unavoidable(stream->planes) || !has_trap(bytes, stream->planes, true),
-            "a trap is left");
+    require(unavoidable(stream->planes) || !has_hazard(bytes, stream->planes, true),
+            "a hazard is left");
   }
 }
 

@@ -35,10 +35,10 @@ void check(const Source& source) {
     require(piece.mesh.colours.empty() || piece.mesh.colours.size() == count);
     require(piece.neck_weights.empty() || piece.neck_weights.size() == count);
     const animeme::head::Mesh& mesh = piece.mesh;
-    require(source.coats.empty() ? mesh.facets.empty()
-                                 : mesh.facets.size() >= mesh.triangles.size());
-    require(mesh.coats.size() == mesh.facets.size());
-    for (const std::uint16_t coat : mesh.coats) require(coat < source.coats.size());
+    require(source.materials.empty() ? mesh.facets.empty()
+                                     : mesh.facets.size() >= mesh.triangles.size());
+    require(mesh.materials.size() == mesh.facets.size());
+    for (const std::uint16_t material : mesh.materials) require(material < source.materials.size());
     for (const auto& t : mesh.facets) {
       for (const std::uint32_t corner : t) require(corner < mesh.corners.size());
     }

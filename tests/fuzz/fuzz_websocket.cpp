@@ -43,9 +43,9 @@ void require(bool good) {
 }
 
 /// A server with a face and a sound that has sent some of both.
-class Station {
+class TestServer {
  public:
-  Station() {
+  TestServer() {
     auto sink = make_web_sink("http://127.0.0.1:0/", {.max_clients = 1000, .per_address = 0});
     require(bool(sink));
     sink_ = std::move(*sink);
@@ -91,16 +91,16 @@ class Station {
   unsigned turn_ = 0;
 };
 
-Station& station() {
-  static Station station;
-  return station;
+TestServer& server() {
+  static TestServer server;
+  return server;
 }
 
 void talk(std::string_view bytes) {
   static int turns = 0;
-  (void)station().talk(bytes, 4);
+  (void)server().talk(bytes, 4);
   if (++turns % 64 != 0) return;
-  const std::string answer = station().talk(
+  const std::string answer = server().talk(
       "GET /info.json HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n", 5000);
   require(answer.starts_with("HTTP/1.1 200") || answer.starts_with("HTTP/1.1 429"));
 }

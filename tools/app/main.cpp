@@ -1,6 +1,5 @@
 // The program `animeme`: one command for each task, see commands/.
 #include <exception>
-#include <iostream>
 #include <new>
 
 #include "tools/app/commands/line.h"

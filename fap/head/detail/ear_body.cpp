@@ -64,7 +64,7 @@ Mesh make_body(const Shape& shape) {
   const auto field = [&shape](Vec3d p) { return std::max(body_field(shape, p), -19.0 - p.y); };
   Mesh mesh = surface_nets(field, {-wide, -20, -12}, {wide, -8.5, 6}, 0.44);
   mesh.colours.assign(mesh.positions.size(), linear_colour(shape.p.cloth_colour));
-  mesh.material = Material::cloth;
+  mesh.surface = SurfaceKind::cloth;
   return mesh;
 }
 

@@ -49,7 +49,7 @@ Mesh make_eye(const Shape& shape, int side) {
                            .dark = linear_colour(shape.p.iris_colour) * 0.16f};
   const Vec3 centre(Vec3d{shape.eye.x * side, shape.eye.y, shape.eye.z});
   Mesh mesh;
-  mesh.material = Material::eye;
+  mesh.surface = SurfaceKind::eye;
   const auto add = [&](double polar, double a) {
     const double r = radius * std::sin(polar);
     const double z = radius * std::cos(polar);
@@ -103,7 +103,7 @@ Mesh make_brows(const Shape& shape) {
     mesh.colours.push_back(colour * float(1.0 + 0.22 * hair));
   }
   mesh.occlusion.assign(mesh.positions.size(), 0.9f);
-  mesh.material = Material::hair;
+  mesh.surface = SurfaceKind::hair;
   append_mirrored(mesh, 0, 0);
   return mesh;
 }
@@ -135,7 +135,7 @@ Mesh make_lashes(const Shape& shape, const Skin& skin, std::vector<std::uint32_t
   }
   mesh.colours.assign(mesh.positions.size(), Vec3{0.02f, 0.012f, 0.01f});
   mesh.occlusion.assign(mesh.positions.size(), 0.8f);
-  mesh.material = Material::hair;
+  mesh.surface = SurfaceKind::hair;
   append_mirrored(mesh, 0, 0);
   return mesh;
 }

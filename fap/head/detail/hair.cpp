@@ -163,7 +163,7 @@ Mesh make_hair(const Shape& shape) {
   Mesh mesh;
   add_bob_locks(field, lines, colour, mesh);
   append(mesh, bob);
-  mesh.material = Material::hair;
+  mesh.surface = SurfaceKind::hair;
   return mesh;
 }
 

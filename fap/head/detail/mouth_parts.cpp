@@ -1,6 +1,5 @@
 #include <numbers>
 
-#include "fap/head/detail/paint.h"
 #include "fap/head/detail/parts.h"
 #include "fap/head/detail/tube.h"
 
@@ -105,7 +104,7 @@ Mesh make_teeth(const Shape& shape, bool upper) {
   const double widths[] = {0.45, 0.36, 0.40, 0.37, 0.37, 0.48, 0.48};  // from the middle outwards
   const double heights[] = {1.0, 0.9, 1.0, 0.88, 0.84, 0.8, 0.75};
   Mesh mesh;
-  mesh.material = Material::teeth;
+  mesh.surface = SurfaceKind::teeth;
   double t = 0;
   for (int i = 0; i < 7; ++i) {
     const double scale = upper ? 1.0 : (i < 2 ? 0.76 : 0.97);
@@ -136,7 +135,7 @@ Mesh make_tongue(const Shape& shape) {
   const double tip_height = -0.52;  // against the lips
   const auto bent = [](double v, double e) { return std::copysign(std::pow(std::abs(v), e), v); };
   Mesh mesh;
-  mesh.material = Material::wet;
+  mesh.surface = SurfaceKind::wet;
   for (int row = 0; row < kTongueRows; ++row) {
     // 0 root, 1 in the tip, where rows are dense: it is round from above and from the side.
     const double t = std::sin(pi / 2 * row / kTongueRows);

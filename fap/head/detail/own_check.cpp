@@ -31,13 +31,14 @@ std::optional<Error> check_piece(const Source& source, std::size_t i) {
     }
   }
   // Facets come from readers alone, which number them themselves.
-  bool fine = mesh.facets.size() == mesh.coats.size() &&
+  bool fine = mesh.facets.size() == mesh.materials.size() &&
               (mesh.facets.empty() || mesh.facets.size() >= mesh.triangles.size());
   for (const Corner& corner : mesh.corners) fine = fine && corner.vertex < count;
   for (const Triangle& t : mesh.facets) {
     for (const std::uint32_t c : t) fine = fine && c < mesh.corners.size();
   }
-  for (const std::uint16_t coat : mesh.coats) fine = fine && coat < source.coats.size();
+  for (const std::uint16_t material : mesh.materials)
+    fine = fine && material < source.materials.size();
   if (!fine) return bad(title(source, i) + " has facets with invalid indices");
   return std::nullopt;
 }

@@ -8,7 +8,7 @@ namespace animeme::head::detail {
 namespace {
 
 struct Look {
-  Material material;
+  SurfaceKind surface;
   std::uint32_t colour;
 };
 
@@ -16,24 +16,24 @@ Look look_of(Part part) {
   const HeadParameters usual;
   switch (part) {
     case Part::skin:
-      return {Material::skin, usual.skin_colour};
+      return {SurfaceKind::skin, usual.skin_colour};
     case Part::left_eye:
     case Part::right_eye:
-      return {Material::eye, 0xF2EEE8};
+      return {SurfaceKind::eye, 0xF2EEE8};
     case Part::upper_teeth:
     case Part::lower_teeth:
-      return {Material::teeth, 0xEFE9DC};
+      return {SurfaceKind::teeth, 0xEFE9DC};
     case Part::tongue:
-      return {Material::wet, 0xB8585A};
+      return {SurfaceKind::wet, 0xB8585A};
     case Part::hair:
-      return {Material::hair, usual.hair_colour};
+      return {SurfaceKind::hair, usual.hair_colour};
     case Part::brows:
     case Part::lashes:
-      return {Material::hair, usual.brow_colour};
+      return {SurfaceKind::hair, usual.brow_colour};
     case Part::body:
-      return {Material::cloth, usual.cloth_colour};
+      return {SurfaceKind::cloth, usual.cloth_colour};
   }
-  return {Material::skin, usual.skin_colour};
+  return {SurfaceKind::skin, usual.skin_colour};
 }
 
 // Where q.y lies between the heights of the points of a contour at q.x; both ends count as outside.
@@ -126,7 +126,7 @@ void colour_parts(Head& head) {
   for (std::size_t i = 0; i < head.parts.size(); ++i) {
     Mesh& mesh = head.parts[i];
     const Look look = look_of(Part(i));
-    mesh.material = look.material;
+    mesh.surface = look.surface;
     std::vector<bool> unknown(mesh.positions.size());
     for (std::size_t v = 0; v < unknown.size(); ++v) {
       unknown[v] = mesh.colours[v] == kNoColour;

@@ -1,6 +1,5 @@
 #include "fap/head/detail/own_steps.h"
 
-#include <algorithm>
 #include <functional>
 
 namespace animeme::head::detail {

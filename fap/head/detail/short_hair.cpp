@@ -171,7 +171,7 @@ Mesh make_short_hair(const Shape& shape) {
   }
   // What lies below comes last: renderers need not paint it then.
   add_cap(scalp, edges, thickness, colour * 0.9f, mesh);
-  mesh.material = Material::hair;
+  mesh.surface = SurfaceKind::hair;
   return mesh;
 }
 

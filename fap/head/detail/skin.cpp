@@ -146,7 +146,7 @@ Skin make_skin(const Shape& shape, double density) {
   add_eye_pocket(shape, skin, 1);
   add_eye_pocket(shape, skin, -1);
   for (const Vec3d& place : skin.places) skin.mesh.positions.push_back(Vec3(place));
-  skin.mesh.material = Material::skin;
+  skin.mesh.surface = SurfaceKind::skin;
   paint_skin(shape, skin);
   return skin;
 }

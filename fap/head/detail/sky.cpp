@@ -128,7 +128,7 @@ void see_sky(Head& head) {
     mesh.occlusion.resize(mesh.positions.size());
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
       mesh.occlusion[v] = kLeastLight + (1 - kLeastLight) * light[part][v];
-      if (normals[part][v] == Vec3{}) mesh.occlusion[v] = 1;  // of veils alone
+      if (normals[part][v] == Vec3{}) mesh.occlusion[v] = 1;  // of transparent triangles
     }
     const Part which = Part(part);
     const bool teeth = which == Part::upper_teeth || which == Part::lower_teeth;

@@ -39,7 +39,4 @@ struct XmlElement {
 /// an encoding that libxml2 does not know).
 Result<XmlElement> parse_xml(std::string_view text);
 
-/// Text as in an attribute or between tags.
-std::string xml_escaped(std::string_view text);
-
 }  // namespace animeme::head::detail

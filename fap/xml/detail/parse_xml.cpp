@@ -6,7 +6,6 @@
 #include <libxml/parserInternals.h>
 
 #include <cstring>
-#include <limits>
 #include <optional>
 
 namespace animeme::head::detail {

@@ -46,8 +46,8 @@ TEST(AlignCommand, TellsWhatIsNotSaidAndWhatIsSaidMore) {
   for (const json& word : found["words"]) {
     EXPECT_EQ(word["said"].get<bool>(), word["word"] != "yesterday") << word;
   }
-  ASSERT_EQ(found["put_in"].size(), 1u);
-  EXPECT_EQ(found["put_in"][0]["before_word"], 10);
+  ASSERT_EQ(found["inserted"].size(), 1u);
+  EXPECT_EQ(found["inserted"][0]["before_word"], 10);
   ASSERT_EQ(found["timed_phones"].size(), found["phones"].get<std::size_t>());
   double before = 0;
   for (const json& phone : found["timed_phones"]) {

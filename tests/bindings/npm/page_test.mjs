@@ -123,12 +123,12 @@ test('an mp4 plays on a head', async () => {
     face.pause();
     face.currentTime = number / 25 + 0.01;
     for (let i = 0; i < 200 && face.frame?.number !== number; ++i) await new Promise(requestAnimationFrame);
-    const skin = face.stage.head.root.getObjectByName('skin');
+    const skin = face.viewport.head.root.getObjectByName('skin');
     const names = animeme.arkitNames();
     const weights = Object.entries(skin.morphTargetDictionary).map(([name, index]) =>
       [skin.morphTargetInfluences[index], face.arkit[names.indexOf(name)]]);
-    face.stage.draw();
-    const gl = face.stage.renderer.getContext(), pixels = new Uint8Array(4 * 320 * 400);
+    face.viewport.draw();
+    const gl = face.viewport.renderer.getContext(), pixels = new Uint8Array(4 * 320 * 400);
     gl.readPixels(0, 0, 320, 400, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
     let filled = 0, sum = 0;
     for (let i = 0; i < pixels.length; i += 4) {
@@ -300,7 +300,7 @@ for (const name of ['arkit_and_visemes', 'visemes_only', 'brunette-t']) {
     const moved = await page.evaluate(async () => {
       face.currentTime = 0.5;
       for (let i = 0; i < 5; ++i) await new Promise(requestAnimationFrame);
-      const {head} = face.stage;
+      const {head} = face.viewport;
       return {byVisemes: head.byVisemes, bone: head.head?.node.name,
         most: Math.max(...[...head.shapes, ...head.visemes].map(({node, index}) => node.morphTargetInfluences[index]))};
     });

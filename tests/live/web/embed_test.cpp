@@ -6,7 +6,7 @@
 #include "fap/head/model.h"
 #include "fap/head/rig.h"
 #include "tests/live/web/http.h"
-#include "tests/live/web/station.h"
+#include "tests/live/web/test_server.h"
 #include "tests/support/files.h"
 #include "tests/support/folders.h"
 #include "tools/view/viewer/viewer.h"
@@ -89,11 +89,11 @@ TEST(PlaneReader, IsThatOfThePage) {
 
 TEST_F(PageElsewhere, ReadsBothFormsOfTheValues) {
   OnePage page("<!doctype html><meta charset=utf-8><link rel=icon href=data:,><p>elsewhere</p>");
-  Station station(kSound, {.allow_origins = {page.origin()}});
+  TestServer server(kSound, {.allow_origins = {page.origin()}});
   Chromium browser;
   ASSERT_TRUE(browser.is_open());
   browser.open(page.origin(), 400, 300, false);
-  const std::string url = "ws" + station.address().substr(4) + "faps";
+  const std::string url = "ws" + server.address().substr(4) + "faps";
   const Json seen = browser.evaluate(readme_reader() + R"(
     new Promise((done) => {
       const texts = [], planes = [];
@@ -143,23 +143,23 @@ TEST_F(PageElsewhere, HasTheFaceInAFrameIfItMay) {
            url + "?transparent' allow=autoplay></iframe>";
   };
   {
-    Station station(kSound);
-    page.set(html(station.address()));
+    TestServer server(kSound);
+    page.set(html(server.address()));
     Chromium browser;
     ASSERT_TRUE(browser.is_open());
     browser.open(page.origin(), 500, 500, false);
     for (int i = 0; i < 100 && browser.complaints().empty(); ++i) browser.evaluate("0");
     ASSERT_FALSE(browser.complaints().empty());
     EXPECT_THAT(browser.complaints().front(), HasSubstr("frame-ancestors"));
-    EXPECT_EQ(station.viewers(), 0);
+    EXPECT_EQ(server.viewers(), 0);
   }
-  Station station(kSound, with_head({page.origin()}));
-  page.set(html(station.address()));
+  TestServer server(kSound, with_head({page.origin()}));
+  page.set(html(server.address()));
   Chromium browser(kObs);
   ASSERT_TRUE(browser.is_open());
   browser.open(page.origin(), 500, 500, false);
-  for (int i = 0; i < 600 && station.viewers() == 0; ++i) usleep(50000);
-  EXPECT_EQ(station.viewers(), 1);
+  for (int i = 0; i < 600 && server.viewers() == 0; ++i) usleep(50000);
+  EXPECT_EQ(server.viewers(), 1);
   Json seen;
   for (int i = 0; i < 120; ++i) {  // until the head is there
     seen = alphas(browser, picture("web_frame.png"));
@@ -176,11 +176,11 @@ TEST_F(PageElsewhere, HasTheFaceInAFrameIfItMay) {
 }
 
 TEST_F(PageElsewhere, IsABrowserSource) {
-  Station station(kSound, with_head());
+  TestServer server(kSound, with_head());
   Chromium browser(kObs);
   ASSERT_TRUE(browser.is_open());
   browser.make_background_transparent();
-  browser.open(station.address() + "?transparent&zoom=1.3&left=10", 600, 700, false);
+  browser.open(server.address() + "?transparent&zoom=1.3&left=10", 600, 700, false);
   browser.evaluate(
       "document.adoptedStyleSheets = [new CSSStyleSheet()], "
       "document.adoptedStyleSheets[0].replaceSync('" +
@@ -208,7 +208,7 @@ TEST_F(PageElsewhere, IsABrowserSource) {
 // A browser that plays nothing without a click, not even without sound, shows the face all the
 // same.
 TEST_F(PageElsewhere, TheFaceNeedsNoPlayer) {
-  Station station(kSound);
+  TestServer server(kSound);
   Chromium browser;
   ASSERT_TRUE(browser.is_open());
   browser.call("Page.addScriptToEvaluateOnNewDocument", {{"source", R"(
@@ -217,7 +217,7 @@ TEST_F(PageElsewhere, TheFaceNeedsNoPlayer) {
       return window.clicked ? play.call(this)
                             : Promise.reject(new DOMException('a click first', 'NotAllowedError'));
     };)"}});
-  browser.open(station.address() + "?transparent", 400, 400, false);
+  browser.open(server.address() + "?transparent", 400, 400, false);
   ASSERT_TRUE(wait_for(browser, "animeme.session.soundless && animeme.shown > 20", 60, false));
   EXPECT_TRUE(wait_for(browser, "animeme.state === 'live'", 60, false));
   EXPECT_NE(browser.evaluate("getComputedStyle(sound).display", false), "none");
@@ -230,10 +230,10 @@ TEST_F(PageElsewhere, TheFaceNeedsNoPlayer) {
 }
 
 TEST_F(PageElsewhere, MutedIsNothingToAskFor) {
-  Station station(kSound);
+  TestServer server(kSound);
   Chromium browser;
   ASSERT_TRUE(browser.is_open());
-  browser.open(station.address() + "?transparent&muted", 400, 400, false);
+  browser.open(server.address() + "?transparent&muted", 400, 400, false);
   ASSERT_TRUE(wait_for(browser, "animeme.state === 'live' && animeme.shown > 5", 60, false));
   EXPECT_EQ(
       browser.evaluate("[audio.muted, animeme.blocked, getComputedStyle(sound).display]", false),
@@ -243,16 +243,16 @@ TEST_F(PageElsewhere, MutedIsNothingToAskFor) {
 
 // Nobody is there to press Start when the stream is over and begins again.
 TEST_F(PageElsewhere, ABrowserSourceComesBack) {
-  std::optional<Station> station(std::in_place, kSound);
-  const std::string address = station->address();
+  std::optional<TestServer> server(std::in_place, kSound);
+  const std::string address = server->address();
   Chromium browser(kObs);
   ASSERT_TRUE(browser.is_open());
   browser.open(address + "?transparent", 400, 400, false);
   ASSERT_TRUE(wait_for(browser, "animeme.state === 'live' && animeme.shown > 20", 60, false));
-  station->finish();
+  server->finish();
   ASSERT_TRUE(wait_for(browser, "animeme.state === 'ended'", 60, false));
-  station.reset();
-  station.emplace(kSound, web::WebOptions{}, address);
+  server.reset();
+  server.emplace(kSound, web::WebOptions{}, address);
   EXPECT_TRUE(wait_for(browser, "animeme.state === 'live'", 60, false));
 }
 

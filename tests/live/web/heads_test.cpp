@@ -4,7 +4,7 @@
 
 #include "tests/formats/media/live/stream_support.h"
 #include "tests/live/web/http.h"
-#include "tests/live/web/station.h"
+#include "tests/live/web/test_server.h"
 #include "tests/support/folders.h"
 
 namespace animeme::test {

@@ -9,7 +9,7 @@
 
 #include "fap/head/model.h"
 #include "fap/head/rig.h"
-#include "tests/live/web/station.h"
+#include "tests/live/web/test_server.h"
 #include "tests/support/folders.h"
 #include "tools/view/viewer/viewer.h"
 
@@ -31,8 +31,8 @@ class Page : public ::testing::TestWithParam<media::AudioCodec> {
     browser_.emplace();
     ASSERT_TRUE(browser_->is_open()) << "Chromium does not start";
   }
-  void start(const Station& station, int width, int height, bool dark) {
-    browser_->open(station.address(), width, height, dark);
+  void start(const TestServer& server, int width, int height, bool dark) {
+    browser_->open(server.address(), width, height, dark);
     ASSERT_TRUE(wait_for(*browser_, "animeme.blocked", 60, false)) << "no sound without a click";
     EXPECT_EQ(browser_->evaluate("audio.muted", false), true);
     browser_->evaluate("document.getElementById('sound').click()");
@@ -44,8 +44,8 @@ class Page : public ::testing::TestWithParam<media::AudioCodec> {
 };
 
 TEST_P(Page, PlaysSoundAndFaceTogether) {
-  Station station(GetParam());
-  start(station, 1100, 800, false);
+  TestServer server(GetParam());
+  start(server, 1100, 800, false);
   const Json a = browser_->evaluate(kSample);
   ASSERT_TRUE(wait_for(*browser_, "animeme.shown > " + std::to_string(int(a["shown"]) + 50)));
   const Json b = browser_->evaluate(kSample);
@@ -66,8 +66,8 @@ TEST_P(Page, PlaysSoundAndFaceTogether) {
 
 // The sound that comes out of the element, sample by sample, against the mouth that is shown.
 TEST_P(Page, TheMouthOpensWithTheTone) {
-  Station station(GetParam());
-  start(station, 800, 600, true);
+  TestServer server(GetParam());
+  start(server, 800, 600, true);
   const Json seen = browser_->evaluate(tones_and_mouths(
       "context.createMediaElementSource(audio).connect(tap).connect(context.destination)", 5000));
   ASSERT_TRUE(seen.contains("tones"));
@@ -95,8 +95,8 @@ INSTANTIATE_TEST_SUITE_P(Codecs, Page,
 using PageOnce = Page;
 
 TEST_P(PageOnce, FitsAPhoneAndSurvivesAPause) {
-  Station station(GetParam());
-  start(station, 360, 740, true);
+  TestServer server(GetParam());
+  start(server, 360, 740, true);
   EXPECT_EQ(browser_->evaluate("document.documentElement.scrollWidth <= innerWidth"), true)
       << "nothing sticks out";
   EXPECT_EQ(browser_->evaluate("[...document.querySelectorAll('canvas')].every(c => "
@@ -104,9 +104,9 @@ TEST_P(PageOnce, FitsAPhoneAndSurvivesAPause) {
             true);
   browser_->save_picture(std::filesystem::path(test::kBinaryFolder) / "screenshots" /
                          "web_phone.png");
-  station.pause(true);
+  server.pause(true);
   ASSERT_TRUE(wait_for(*browser_, "animeme.state === 'waiting'"));
-  station.pause(false);
+  server.pause(false);
   ASSERT_TRUE(wait_for(*browser_, "animeme.state === 'live'"));
   const Json a = browser_->evaluate(kSample);
   ASSERT_TRUE(wait_for(*browser_, "animeme.shown > " + std::to_string(int(a["shown"]) + 20)));
@@ -121,8 +121,8 @@ TEST_P(PageOnce, ShowsAHead) {
   web::WebOptions options;
   options.head_script = viewer::head_script();
   options.head_model = viewer::pack_head(*head, head::make_rig(*head));
-  Station station(GetParam(), options);
-  start(station, 1100, 800, false);
+  TestServer server(GetParam(), options);
+  start(server, 1100, 800, false);
   ASSERT_TRUE(wait_for(*browser_, "animeme.head")) << "WebGL2 in software";
   EXPECT_EQ(browser_->evaluate("document.getElementById('face')"), Json());
   // The mouth of the head moves: points of the lips come apart and together again.

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/live/web/station.h"
+#include "tests/live/web/test_server.h"
 
 namespace animeme::test {
 namespace stall_test {
@@ -18,13 +18,13 @@ class PageStall : public ::testing::TestWithParam<bool> {
     browser_.emplace(std::vector<std::string>{"--autoplay-policy=no-user-gesture-required"});
     ASSERT_TRUE(browser_->is_open());
     start();
-    browser_->open(station_->address(), 500, 500, false);
+    browser_->open(server_->address(), 500, 500, false);
     EXPECT_LT(settle("at first"), 20);
   }
   void start(const std::string& url = "http://127.0.0.1:0/") {
     const bool sound = GetParam();
-    station_.emplace(sound ? std::optional(media::AudioCodec::aac) : std::nullopt,
-                     web::WebOptions{}, url);
+    server_.emplace(sound ? std::optional(media::AudioCodec::aac) : std::nullopt, web::WebOptions{},
+                    url);
   }
   /// Seconds until it is near for a second and a half; 99: it is not in a minute.
   double settle(const char* what) {
@@ -51,7 +51,7 @@ class PageStall : public ::testing::TestWithParam<bool> {
   }
   static void seconds(double count) { usleep(useconds_t(count * 1e6)); }
 
-  std::optional<Station> station_;
+  std::optional<TestServer> server_;
   std::optional<Chromium> browser_;
 };
 
@@ -63,29 +63,29 @@ TEST_P(PageStall, OfTheBrowser) {
 }
 
 TEST_P(PageStall, OfTheSender) {
-  station_->hold(true);
+  server_->hold(true);
   seconds(4);
-  station_->hold(false);
+  server_->hold(false);
   EXPECT_LT(settle("sender stopped for 4 s"), 10);
   for (int i = 0; i < 3; ++i) {
-    station_->hold(true);
+    server_->hold(true);
     seconds(0.9);
-    station_->hold(false);
+    server_->hold(false);
     seconds(0.9);
   }
   EXPECT_LT(settle("sender stopped for 0.9 s, three times"), 30);
 }
 
 TEST_P(PageStall, WithALoss) {
-  station_->pause(true);
+  server_->pause(true);
   seconds(3);
-  station_->pause(false);
+  server_->pause(false);
   EXPECT_LT(settle("nothing for 3 s"), 10);
 }
 
 TEST_P(PageStall, OfAServerThatBeginsAgain) {
-  const std::string address = station_->address();
-  station_.reset();
+  const std::string address = server_->address();
+  server_.reset();
   seconds(1);
   start(address);
   ASSERT_TRUE(wait_for(*browser_, "animeme.state === 'live'", 60, false));

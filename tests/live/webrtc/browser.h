@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "tests/live/webrtc/relay.h"
-#include "tests/live/webrtc/station.h"
+#include "tests/live/webrtc/test_broadcast.h"
 
 namespace animeme::test {
 
@@ -56,8 +56,8 @@ class WebRtcBrowser : public ::testing::Test {
   void run(Result<std::unique_ptr<web::WebSink>> sink) {
     ASSERT_TRUE(sink);
     web_ = sink->get();
-    station_.emplace(std::move(*sink));
-    ASSERT_TRUE(station_->started()) << station_->started().error().message;
+    server_.emplace(std::move(*sink));
+    ASSERT_TRUE(server_->started()) << server_->started().error().message;
   }
 
   /// Opens the page and, if it waits for that, clicks. A relay with this loss stands in between if
@@ -96,7 +96,7 @@ class WebRtcBrowser : public ::testing::Test {
   bool quiet_ = false;  // nobody else wants this machine: times are what they are said to be
   std::optional<Chromium> browser_;
   web::WebSink* web_ = nullptr;
-  std::optional<Broadcast> station_;
+  std::optional<Broadcast> server_;
   std::optional<Relay> relay_;
 };
 

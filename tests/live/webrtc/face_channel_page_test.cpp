@@ -48,11 +48,11 @@ TEST_F(FaceChannelPage, LosesNothingAtFivePercent) {
   browser_->evaluate(kJoin);
   relay(0.05, 0.03, true);
   ASSERT_TRUE(wait_for(*browser_, "Object.keys(rtc.units).length > 250", 60));
-  station_->stop();
+  server_->stop();
   EXPECT_TRUE(wait_for(*browser_, "rtc.ended", 5));
   EXPECT_EQ(browser_->evaluate("rtc.hello.startsWith('65 1 97 1 ')"), true);
   const Json units = browser_->evaluate("rtc.units");
-  const auto sent = station_->sent();
+  const auto sent = server_->sent();
   int number = -1, late = 0;
   for (const auto& [key, unit] : std::map<int, Json>([&] {
          std::map<int, Json> sorted;

@@ -10,7 +10,7 @@
 #include <mutex>
 #include <thread>
 
-#include "tests/live/webrtc/station.h"
+#include "tests/live/webrtc/test_broadcast.h"
 
 namespace animeme::test {
 namespace hostile_offer_test {

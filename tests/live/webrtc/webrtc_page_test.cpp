@@ -81,7 +81,7 @@ TEST_F(WebRtcPage, EndsWithThePresentation) {
   serve();
   start();
   expect_webrtc();
-  station_->stop();
+  server_->stop();
   EXPECT_TRUE(wait_for(*browser_, "animeme.state === 'ended'"))
       << browser_->evaluate("animeme.state");
 }

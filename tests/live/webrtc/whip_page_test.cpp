@@ -38,14 +38,14 @@ TEST_F(WhipPage, PublishesToAServer) {
                                      "/whip/ada");
   ASSERT_TRUE(sink);
   browser_->open("about:blank", 800, 600, true);
-  auto station =
+  auto starting =
       std::async(std::launch::async, [&] { return std::make_unique<Broadcast>(std::move(*sink)); });
   const std::string offer = server.offer();
   ASSERT_NE(offer, "");
   const Json answer = browser_->evaluate(std::string(kAnswer) + "(" + Json(offer).dump() + ")");
   ASSERT_TRUE(answer.is_string()) << Json(browser_->complaints()).dump() << offer;
   server.answer(answer);
-  const auto running = station.get();
+  const auto running = starting.get();
   ASSERT_TRUE(running->started()) << running->started().error().message;
   ASSERT_TRUE(wait_for(*browser_, "got.messages > 50"));
   EXPECT_EQ(browser_->evaluate("got.label"), "animeme.face");

@@ -12,10 +12,10 @@
 #include "codec/decode/decoder.h"
 #include "dam/model/builtin.h"
 #include "tools/formats/media/audio.h"
-#include "tools/speech/talking/heard_face.h"
 #include "tools/speech/talking/line_queue.h"
 #include "tools/speech/talking/live_speaker.h"
 #include "tools/speech/talking/live_voice.h"
+#include "tools/speech/talking/voice_driven_face.h"
 
 namespace animeme::speech {
 namespace underrun_test {
@@ -129,7 +129,8 @@ TEST(Underrun, AVoiceThatPausesIsRestedAndGoesOnTogetherWithItsFace) {
   for (const char* text : {"Bob may buy a map of Mobile.", "Wow, how loud you shout, my friend!",
                            "Papa made a big pie for Bobby."}) {
     const auto speech = voice::speak_text(text);
-    if (!speech || !HeardFace::open(character(), 16000, {})) GTEST_SKIP() << "no voice or no ears";
+    if (!speech || !VoiceDrivenFace::open(character(), 16000, {}))
+      GTEST_SKIP() << "no voice or no ears";
     rate = speech->audio.sample_rate;
     samples.insert(samples.end(), speech->audio.samples.begin(), speech->audio.samples.end());
   }

@@ -4,7 +4,7 @@
 
 #include <iostream>
 
-#include "tools/speech/text/said.h"
+#include "tools/speech/text/spoken_text.h"
 
 namespace animeme::text {
 namespace guess_test {

@@ -11,7 +11,7 @@ namespace readings_test {
 
 std::string chinese(const std::string& text) {
   std::u32string unread;
-  const Said said = spell_han_numbers(as_written(code_points(text)), false);
+  const SpokenText said = spell_han_numbers(as_written(code_points(text)), false);
   return utf8(read_chinese(said, unread).text) + utf8(unread);
 }
 

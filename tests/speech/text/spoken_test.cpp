@@ -178,7 +178,7 @@ TEST(Spoken, LongTextsInLinearTime) {
     std::u32string text;
     while (text.size() < 60000) text += code_points(unit);
     const auto start = std::clock();
-    const Said said = read_written(as_written(text), {"en-us"});
+    const SpokenText said = read_written(as_written(text), {"en-us"});
     const double seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
     EXPECT_GT(said.size(), 0u);
     EXPECT_LT(seconds, 1.5) << unit;

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tools/speech/text/said.h"
+#include "tools/speech/text/spoken_text.h"
 #include "tools/speech/text/ssml_values.h"
 
 namespace animeme::text {

@@ -102,7 +102,7 @@ TEST(Written, NumbersInWordsWhereAVoiceSaysNone) {
 TEST(Written, EachCharacterKnowsItsPlace) {
   SKIP_WITHOUT_ICU();
   const std::u32string source = U"am 12.05.2024 da";
-  const Said said = read_written(as_written(source), {"de"});
+  const SpokenText said = read_written(as_written(source), {"de"});
   ASSERT_EQ(said.text, U"am zwölften Mai 2024 da");
   EXPECT_EQ(said.place(3, 20), (Place{3, 13}));
   EXPECT_EQ(said.place(21, 23), (Place{14, 16}));

@@ -146,7 +146,7 @@ TEST(AlignReadings, TheVariantIsTheOneThatIsSaid) {
     EXPECT_NEAR(in_figures->words[5].start, in_words->words[5].start, 0.04) << said;
     const std::size_t last = in_words->words.size() - 4;
     EXPECT_NEAR(in_figures->words[5].end, in_words->words[last].end, 0.04) << said;
-    EXPECT_TRUE(in_figures->put_in.empty()) << said;
+    EXPECT_TRUE(in_figures->inserted.empty()) << said;
   }
 }
 

@@ -30,9 +30,9 @@ TEST(AlignWords, WordsLeftOutAndPutInAreTold) {
 
   const auto less = align(audio, "please put the small blue book by the window");
   ASSERT_TRUE(less) << less.error().describe();
-  ASSERT_EQ(less->put_in.size(), 1u);
-  EXPECT_GE(less->put_in[0].phones.size(), 3u);
-  EXPECT_NEAR(double(less->put_in[0].before), 6, 1);
+  ASSERT_EQ(less->inserted.size(), 1u);
+  EXPECT_GE(less->inserted[0].phones.size(), 3u);
+  EXPECT_NEAR(double(less->inserted[0].before), 6, 1);
 }
 
 TEST(AlignWords, OneBadTokenCostsItsWordOnly) {

@@ -241,7 +241,7 @@ TEST(Listen, DamagedModelsAreRefused) {
 TEST(SoundListener, DoesNotDependOnPieces) {
   if (no_ears()) GTEST_SKIP() << "no pocketsphinx or no espeak-ng";
   const auto& samples = sentence().sound.samples;
-  std::vector<Heard> all;
+  std::vector<Recognition> all;
   for (const std::size_t piece : {std::size_t(37), std::size_t(160), samples.size()}) {
     auto listener = SoundListener::open(kAlignRate, {});
     ASSERT_TRUE(listener);
@@ -275,9 +275,9 @@ TEST(SoundListener, WhatLiesBackStays) {
   ASSERT_TRUE(listener);
   const std::size_t half = samples.size() / 2;
   (*listener)->push(std::span(samples).first(half));
-  const Heard before = (*listener)->hear(0);
+  const Recognition before = (*listener)->hear(0);
   (*listener)->push(std::span(samples).subspan(half));
-  const Heard after = (*listener)->hear(0);
+  const Recognition after = (*listener)->hear(0);
   const double settled = double(half) / kAlignRate - 0.6;
   std::size_t same = 0;
   for (std::size_t i = 0; i < before.readings.size(); ++i) {
@@ -301,7 +301,7 @@ TEST(SoundListener, ForgetsWhatIsToldAndTakesAnyRate) {
     EXPECT_NEAR((*listener)->heard(), sound.duration(), 0.08);
     const double length = (*listener)->heard();
     (*listener)->forget(1);
-    const Heard heard = (*listener)->hear(1);
+    const Recognition heard = (*listener)->hear(1);
     EXPECT_NEAR(heard.script.duration(), length - 1, 1e-9);
     EXPECT_TRUE(dam::check_script(heard.script));
   }

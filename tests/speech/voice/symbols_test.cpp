@@ -96,8 +96,10 @@ std::string joined(const std::vector<std::string>& labels) {
 TEST(EspeakIpa, JapaneseWordsWithIt) {
   VoiceOptions options;
   options.language = "ja";
-  const auto spoken = pronounce({"ほんとう", "さんねん", "せんせい", "さんぽ", "かんじ", "さんか"}, options);
-  if (!spoken && spoken.error().code == Code::unsupported) GTEST_SKIP() << spoken.error().describe();
+  const auto spoken =
+      pronounce({"ほんとう", "さんねん", "せんせい", "さんぽ", "かんじ", "さんか"}, options);
+  if (!spoken && spoken.error().code == Code::unsupported)
+    GTEST_SKIP() << spoken.error().describe();
   ASSERT_TRUE(spoken) << spoken.error().describe();
   // No lip rounding (UW, W) and no closure where no p, b or m follows.
   for (const std::size_t word : {0, 1, 2, 4, 5}) {

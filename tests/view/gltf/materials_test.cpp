@@ -1,4 +1,4 @@
-// Materials of files as coats, and pictures of them.
+// Materials of files, and pictures of them.
 #include <cmath>
 
 #include "tests/view/gltf/square.h"
@@ -7,7 +7,7 @@
 namespace animeme::gltf {
 namespace materials_test {
 
-using head::Coat;
+using head::Material;
 using head::Shading;
 using head::Vec3;
 using nlohmann::json;
@@ -15,8 +15,8 @@ using test::GltfWriter;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 
-const Coat& coat_of(const head::Source& source, std::size_t facet = 0) {
-  return source.coats.at(source.pieces.at(0).mesh.coats.at(facet));
+const Material& material_of(const head::Source& source, std::size_t facet = 0) {
+  return source.materials.at(source.pieces.at(0).mesh.materials.at(facet));
 }
 
 head::Source read_square(const json& material, const json& root = {}) {
@@ -36,8 +36,8 @@ render::Image drawn(const head::Source& source, int size = 32) {
   render::Surface surface{mesh.positions, normals, colours, sky, mesh.triangles};
   surface.facets = mesh.facets;
   surface.corners = mesh.corners;
-  surface.facet_coats = mesh.coats;
-  surface.coats = source.coats;
+  surface.facet_materials = mesh.materials;
+  surface.materials = source.materials;
   surface.normals_at_rest = normals;
   return render::render(
       {{surface}},
@@ -56,13 +56,13 @@ const json kUnlit = {{"KHR_materials_unlit", json::object()}};
 
 TEST(Materials, AnUnlitTextureIsShownTexelByTexel) {
   const head::Source source = read_square({{"extensions", kUnlit}});
-  EXPECT_EQ(coat_of(source).shading, Shading::unlit);
+  EXPECT_EQ(material_of(source).shading, Shading::unlit);
   const render::Image image = drawn(source);
   EXPECT_EQ(at(image, 8, 20), kRed);
   EXPECT_EQ(at(image, 24, 20), kGreen);
 }
 
-TEST(Materials, MasksAndVeils) {
+TEST(Materials, MaskedAndTransparent) {
   const head::Source mask = read_square({{"extensions", kUnlit}, {"alphaMode", "MASK"}});
   EXPECT_EQ(at(drawn(mask), 8, 20), kRed);
   EXPECT_EQ(at(drawn(mask), 24, 20), kBlue);
@@ -77,7 +77,7 @@ TEST(Materials, MasksAndVeils) {
   // They are drawn, and are no triangles of the head.
   const head::Mesh& mesh = blend.pieces.at(0).mesh;
   EXPECT_LT(mesh.triangles.size(), mesh.facets.size());
-  EXPECT_EQ(mesh.coats.size(), mesh.facets.size());
+  EXPECT_EQ(mesh.materials.size(), mesh.facets.size());
 }
 
 // The square is cut along its diagonal with doubled vertices: one mesh, two maps of the texture.
@@ -119,21 +119,21 @@ TEST(Materials, AllThatGltfSaysIsTaken) {
                        {{"KHR_materials_emissive_strength", {{"emissiveStrength", 2}}},
                         {"KHR_materials_specular", {{"specularFactor", 0.3}}}}}});
   const head::Source source = read(square.glb(), {.vertices = 0});
-  const Coat& coat = coat_of(source);
-  EXPECT_TRUE(coat.double_sided);
-  EXPECT_EQ(coat.shading, Shading::lit);
-  EXPECT_EQ(coat.base.picture->kind(), head::TexelKind::colour);
-  EXPECT_EQ(coat.base.picture->type(), "image/png");
-  EXPECT_EQ(coat.emissive.picture, coat.base.picture);
-  EXPECT_EQ(coat.normal.picture->kind(), head::TexelKind::value);
-  EXPECT_EQ(coat.metal_rough.picture, coat.normal.picture);
-  EXPECT_EQ(coat.occlusion.picture, coat.normal.picture);
-  EXPECT_FLOAT_EQ(coat.normal_scale, 0.5f);
-  EXPECT_FLOAT_EQ(coat.occlusion_strength, 0.25f);
-  EXPECT_FLOAT_EQ(coat.metallic, 0.75f);
-  EXPECT_FLOAT_EQ(coat.roughness, 0.5f);
-  EXPECT_FLOAT_EQ(coat.specular, 0.3f);
-  expect_near(coat.emission, {1, 0, 2});
+  const Material& material = material_of(source);
+  EXPECT_TRUE(material.double_sided);
+  EXPECT_EQ(material.shading, Shading::lit);
+  EXPECT_EQ(material.base.picture->kind(), head::TexelKind::colour);
+  EXPECT_EQ(material.base.picture->type(), "image/png");
+  EXPECT_EQ(material.emissive.picture, material.base.picture);
+  EXPECT_EQ(material.normal.picture->kind(), head::TexelKind::value);
+  EXPECT_EQ(material.metal_rough.picture, material.normal.picture);
+  EXPECT_EQ(material.occlusion.picture, material.normal.picture);
+  EXPECT_FLOAT_EQ(material.normal_scale, 0.5f);
+  EXPECT_FLOAT_EQ(material.occlusion_strength, 0.25f);
+  EXPECT_FLOAT_EQ(material.metallic, 0.75f);
+  EXPECT_FLOAT_EQ(material.roughness, 0.5f);
+  EXPECT_FLOAT_EQ(material.specular, 0.3f);
+  expect_near(material.emission, {1, 0, 2});
   expect_near(source.pieces.at(0).mesh.corners.at(0).normal, {0, 0, 1});
   expect_near(source.pieces.at(0).mesh.corners.at(3).normal, {0, 0.6f, 0.8f});
 }
@@ -144,11 +144,11 @@ TEST(Materials, ToonOfBothVersionsOfVrm) {
                      {"shadingShiftFactor", -0.1},
                      {"shadeMultiplyTexture", {{"index", 0}}}};
   const head::Source one = read_square({{"extensions", {{"VRMC_materials_mtoon", toon}}}});
-  EXPECT_EQ(coat_of(one).shading, Shading::toon);
-  expect_near(coat_of(one).shade, {0.1f, 0.2f, 0.3f});
-  EXPECT_FLOAT_EQ(coat_of(one).toony, 0.8f);
-  EXPECT_FLOAT_EQ(coat_of(one).shade_shift, -0.1f);
-  EXPECT_EQ(coat_of(one).shade_texture.picture, coat_of(one).base.picture);
+  EXPECT_EQ(material_of(one).shading, Shading::toon);
+  expect_near(material_of(one).shade, {0.1f, 0.2f, 0.3f});
+  EXPECT_FLOAT_EQ(material_of(one).toony, 0.8f);
+  EXPECT_FLOAT_EQ(material_of(one).shade_shift, -0.1f);
+  EXPECT_EQ(material_of(one).shade_texture.picture, material_of(one).base.picture);
   // As VRM's migration has it: toony 0.9 and shift 0 become 0.95 and -0.05; colours are sRGB.
   const json old = {
       {"shader", "VRM/MToon"},
@@ -158,10 +158,10 @@ TEST(Materials, ToonOfBothVersionsOfVrm) {
   const head::Source zero =
       read_square({{"extensions", kUnlit}},
                   {{"extensions", {{"VRM", {{"materialProperties", json::array({old})}}}}}});
-  EXPECT_EQ(coat_of(zero).shading, Shading::toon);
-  EXPECT_FLOAT_EQ(coat_of(zero).toony, 0.95f);
-  EXPECT_FLOAT_EQ(coat_of(zero).shade_shift, -0.05f);
-  expect_near(coat_of(zero).shade, {0.2140f, 0.2140f, 0.2140f}, 1e-3f);
+  EXPECT_EQ(material_of(zero).shading, Shading::toon);
+  EXPECT_FLOAT_EQ(material_of(zero).toony, 0.95f);
+  EXPECT_FLOAT_EQ(material_of(zero).shade_shift, -0.05f);
+  expect_near(material_of(zero).shade, {0.2140f, 0.2140f, 0.2140f}, 1e-3f);
 }
 
 TEST(Materials, Ktx2IsNamedAndTheFactorDrawn) {
@@ -184,13 +184,13 @@ TEST(Materials, Ktx2IsNamedAndTheFactorDrawn) {
   EXPECT_EQ(at(drawn(source), 8, 20), kGreen);
 }
 
-TEST(Materials, HeadsWithoutPicturesHaveNoCoats) {
+TEST(Materials, HeadsWithoutPicturesHaveNoMaterials) {
   Square square;
   square.primitive["material"] = square.file.add(
       "materials",
       {{"doubleSided", true}, {"pbrMetallicRoughness", {{"baseColorFactor", {1, 0, 0, 1}}}}});
   const head::Source source = read(square.glb());
-  EXPECT_TRUE(source.coats.empty());
+  EXPECT_TRUE(source.materials.empty());
   EXPECT_TRUE(source.pieces.at(0).mesh.facets.empty());
   EXPECT_TRUE(source.pieces.at(0).mesh.corners.empty());
 }

@@ -34,8 +34,8 @@ json image_of(int size, Texel texel) {
 
 using Four = std::array<int, 4>;
 
-// A ball with everything that glTF has for light, a leaf with holes before it, a veil, and a leaf
-// that shows its back.
+// A ball with everything that glTF has for light, a leaf with holes before it, a pane of glass, and
+// a leaf that shows its back.
 std::vector<std::uint8_t> scene_file() {
   test::GltfWriter file;
   file.add("images", image_of(64, [](int x, int y) {
@@ -133,8 +133,8 @@ render::Image drawn(const head::Source& source, const render::Camera& camera) {
     render::Surface surface{mesh.positions, normals.back(), mesh.colours, skies.back(), {}};
     surface.facets = mesh.facets;
     surface.corners = mesh.corners;
-    surface.facet_coats = mesh.coats;
-    surface.coats = source.coats;
+    surface.facet_materials = mesh.materials;
+    surface.materials = source.materials;
     surface.normals_at_rest = normals.back();
     scene.surfaces.push_back(surface);
   }

@@ -31,7 +31,7 @@ struct Flat {
     triangles.push_back({base, base + 1, base + 2});
   }
   render::Scene scene() const {
-    return {{{positions, normals, colours, occlusion, triangles, head::Material::cloth, {}}}};
+    return {{{positions, normals, colours, occlusion, triangles, head::SurfaceKind::cloth, {}}}};
   }
 };
 

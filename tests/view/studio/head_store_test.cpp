@@ -56,7 +56,7 @@ TEST(HeadStore, KeepsAHeadAsItWasMade) {
       EXPECT_EQ(head->parts[i].triangles, made.parts[i].triangles);
       EXPECT_EQ(head->parts[i].colours, made.parts[i].colours);
       EXPECT_EQ(head->parts[i].occlusion, made.parts[i].occlusion);
-      EXPECT_EQ(head->parts[i].material, made.parts[i].material);
+      EXPECT_EQ(head->parts[i].surface, made.parts[i].surface);
     }
     for (const fap::FeaturePointInfo& point : fap::kFeaturePoints) {
       EXPECT_EQ(head->at(point.id), made.at(point.id)) << point.id;

@@ -24,13 +24,13 @@ std::shared_ptr<const head::Picture> picture_of(int side, std::size_t file_bytes
 
 TEST(PagePictures, LargeOnesBecomeSmaller) {
   head::Head head;
-  head.coats.resize(3);
-  head.coats[0].base.picture = head.coats[1].emissive.picture = picture_of(1500, 900'000);
-  const auto small = head.coats[2].base.picture = picture_of(8, 100);
+  head.materials.resize(3);
+  head.materials[0].base.picture = head.materials[1].emissive.picture = picture_of(1500, 900'000);
+  const auto small = head.materials[2].base.picture = picture_of(8, 100);
   EXPECT_EQ(studio::shrink_pictures(head), 1u);
-  EXPECT_EQ(head.coats[2].base.picture, small);
-  EXPECT_EQ(head.coats[1].emissive.picture, head.coats[0].base.picture);
-  const head::Picture& now = *head.coats[0].base.picture;
+  EXPECT_EQ(head.materials[2].base.picture, small);
+  EXPECT_EQ(head.materials[1].emissive.picture, head.materials[0].base.picture);
+  const head::Picture& now = *head.materials[0].base.picture;
   EXPECT_EQ(now.type(), "image/webp");
   EXPECT_LT(now.file().size(), 250'000u);
   int width = 0, height = 0;
@@ -50,10 +50,10 @@ TEST(PagePictures, LargeOnesBecomeSmaller) {
 
 TEST(PagePictures, WhatGetsNoSmallerStays) {
   head::Head head;
-  head.coats.resize(1);
-  const auto before = head.coats[0].base.picture = picture_of(256, 60);
+  head.materials.resize(1);
+  const auto before = head.materials[0].base.picture = picture_of(256, 60);
   EXPECT_EQ(studio::shrink_pictures(head, 50), 0u);
-  EXPECT_EQ(head.coats[0].base.picture, before);
+  EXPECT_EQ(head.materials[0].base.picture, before);
 }
 
 }  // namespace page_pictures_test

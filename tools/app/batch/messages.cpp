@@ -1,5 +1,4 @@
 // Rows and what became of them, on their way between processes.
-#include <utility>
 
 #include "tools/app/batch/work.h"
 #include "tools/formats/common/json.h"

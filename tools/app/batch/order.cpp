@@ -1,6 +1,5 @@
 // The index in the order of the manifest, and the report.
 #include <algorithm>
-#include <cmath>
 
 #include "tools/app/batch/index.h"
 #include "tools/formats/common/text.h"
@@ -13,7 +12,7 @@ namespace {
 
 constexpr std::size_t kMostShown = 1000;  // rows of the report
 
-// Errors first, then what the aligner trusts least, then who was warned of most.
+// Errors first, then low alignment confidence, then most warnings.
 double badness(const Entry& entry) {
   if (!entry.good) return 1e6;
   const double doubt = entry.confidence ? 1 - *entry.confidence : 0;

@@ -1,13 +1,16 @@
 #include "tools/app/batch/work.h"
 
-#include <unistd.h>
-
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
+#include <iostream>
 #include <map>
 
+#include <fcntl.h>
+#include <sys/types.h>
+#include <unistd.h>
+
 #include "conformance/sha256.h"
-#include "tools/app/batch/captured_internal.h"
 #include "tools/app/batch/plan.h"
 #include "tools/formats/common/json.h"
 #include "tools/formats/files/files.h"
@@ -15,6 +18,43 @@
 #include "tools/formats/programs/run_program.h"
 
 namespace animeme::batch {
+
+namespace {
+
+// A descriptor of the program goes to a file as long as one lives; that of a worker that crashes
+// stays.
+class Captured {
+ public:
+  // `path`: of the file, which is made anew.
+  Captured(int descriptor, const std::string& path)
+      : descriptor_(descriptor),
+        old_(::dup(descriptor)),
+        file_(::open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0600)) {
+    if (file_ >= 0) ::dup2(file_, descriptor_);
+  }
+  Captured(const Captured&) = delete;
+  Captured& operator=(const Captured&) = delete;
+  ~Captured() {
+    if (old_ >= 0) ::dup2(old_, descriptor_);
+    if (old_ >= 0) ::close(old_);
+    if (file_ >= 0) ::close(file_);
+  }
+  // What has been written so far.
+  std::string text() const {
+    std::fflush(stdout);
+    std::cout.flush();
+    std::cerr.flush();
+    std::string all(std::size_t(std::max<off_t>(::lseek(file_, 0, SEEK_END), 0)), '\0');
+    const ssize_t got = ::pread(file_, all.data(), all.size(), 0);
+    all.resize(std::size_t(std::max<ssize_t>(got, 0)));
+    return all;
+  }
+
+ private:
+  int descriptor_, old_, file_;
+};
+
+}  // namespace
 
 namespace fs = std::filesystem;
 using tools::Json;
@@ -74,7 +114,7 @@ bool all_there(const Plan& plan, const Task& task, const Shared& shared) {
   return bytes == task.known_bytes;
 }
 
-// What a line printed: facts of --json, warnings, and what it said last.
+// Output of a command: the report of --json, warnings, and its last line.
 void take_json(const std::string& text, Entry& entry) {
   const Result<Json> read = Json::parse(text);
   if (!read || !read->is_object()) return;
@@ -267,7 +307,7 @@ std::string last_said(const Shared& shared, std::size_t worker) {
 }
 
 Outcome do_task(const Task& task, const Shared& shared, std::size_t worker) {
-  tools::take_costs();  // what went before is nobody's
+  tools::take_costs();  // costs of earlier work are not of this row
   const std::string stage = shared.stage + "/" + std::to_string(worker);
   std::error_code ignored;
   fs::remove_all(stage, ignored);

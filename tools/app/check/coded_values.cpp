@@ -142,7 +142,7 @@ Comparison compare(const CodedClip& expected, const CodedClip& got) {
   Extras extras;
   const std::vector<const CodedFrame*> pairs = pair_up(expected, got);
   if (pairs.size() != expected.frames.size()) {
-    // Some are missing; a wrong value before that tells more.
+    // Values are missing; report a wrong value before them first.
     const std::size_t common = std::min(expected.frames.size(), got.frames.size());
     for (std::size_t i = 0; i < common; ++i) {
       auto difference = compare_frame(expected, expected.frames[i], got.frames[i], extras);

@@ -24,7 +24,7 @@ struct RunFiles {
 RunFiles files_of(const fs::path& scratch, std::size_t i, const SuiteCase& one,
                   const RunOptions& options) {
   const std::string base = (scratch / std::to_string(i)).string();
-  // A decoder of others gets a copy under a name that no shell can misread.
+  // An external decoder gets a copy, under a name without special characters.
   RunFiles files{options.command ? base + ".fba" : one.path.at("stream").string(),
                  base + ".fap",
                  base + ".bap",
@@ -47,7 +47,7 @@ std::string small_file(const std::string& path) {
   return text ? *text : std::string();
 }
 
-// What the child of this codec does: the decoded values and what else is to be told, as files.
+// Runs in the child process: writes the decoded values and the report as files.
 int run_own(const SuiteCase& one, const RunFiles& files, bool encode) {
   const auto bytes = read_file(files.stream);
   if (!bytes) return kBadInput;
@@ -164,7 +164,7 @@ class Judge {
       return true;
     }
     const Comparison comparison = compare(*expected, *got);
-    // A frame too many is no help for a player here but what was made of the damage.
+    // Here an additional frame was decoded from damaged bits.
     const bool too_many = got->frames.size() > expected->frames.size();
     if (comparison.right && !(one_.info.damaged && too_many)) {
       at_best(comparison.exact ? Verdict::exact : Verdict::values, comparison.text);

@@ -69,7 +69,7 @@ Result<SuiteCase> load_case(const fs::path& json, const std::vector<fs::path>& u
   return one;
 }
 
-// A case told by the names of its files; none if there is nothing to compare with.
+// Finds a case by the names of its files; none if there is no expected result.
 bool bare_case(const fs::path& stream, SuiteCase& one) {
   const fs::path base = stream.parent_path() / stream.stem();
   one.described = false;

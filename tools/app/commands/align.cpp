@@ -49,7 +49,7 @@ Json json_of_word(const voice::AlignedWord& word) {
           {"said", word.said}};
 }
 
-Json json_of_put_in(const voice::PutIn& one) {
+Json json_of_insertion(const voice::Insertion& one) {
   return {
       {"start", one.start}, {"end", one.end}, {"phones", one.phones}, {"before_word", one.before}};
 }
@@ -74,7 +74,7 @@ void print_json(const voice::Alignment& alignment, bool heard) {
                      {"heard", heard},
                      {"warnings", alignment.warnings},
                      {"words", json_list(alignment.words, json_of_word)},
-                     {"put_in", json_list(alignment.put_in, json_of_put_in)},
+                     {"inserted", json_list(alignment.inserted, json_of_insertion)},
                      {"timed_phones", phone_list(alignment)}};
   std::printf("%s\n", pretty(json).c_str());
 }
@@ -102,7 +102,7 @@ Result<voice::Alignment> align_by_ear(const AlignOptions& options) {
   if (!heard) return heard.error();
   voice::Alignment alignment;
   std::string words;
-  for (const voice::HeardWord& one : heard->words) {
+  for (const voice::RecognisedWord& one : heard->words) {
     voice::AlignedWord& word = alignment.words.emplace_back();
     word.text = one.text;
     word.start = one.start;
@@ -181,7 +181,7 @@ void add_options(OptionTable& cli, AlignOptions& options) {
       ->output(joined(dam::script_endings(), " "), OutputKind::file_or_dash);
   cli.add("--json", options.json,
           "Print words with times, confidences and whether they are spoken; speech that is "
-          "not in the transcript (put_in); each phone with its confidence");
+          "not in the transcript (inserted); each phone with its confidence");
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ class Shown {
  public:
   void at(const batch::Standing& now) {
     if (now.wanted == 0) return;
-    // What is only looked at goes by fast and tells nothing of the rest.
+    // Rows that are only checked are fast, and say nothing about the time that remains.
     const double rate = double(now.done) / std::max(seconds(), 1e-3);
     line_.update(double(now.done) / double(now.wanted),
                  format("%llu of %llu, %.1f clips a second, %s left",

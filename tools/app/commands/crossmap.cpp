@@ -1,5 +1,4 @@
 // Captured lips to the controls of a character: Appendix A of the paper.
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <set>

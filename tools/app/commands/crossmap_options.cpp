@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "tools/app/commands/options.h"
-#include "tools/app/commands/outputs.h"
 #include "tools/formats/files/files.h"
 
 namespace animeme::tools {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <map>
 
 #include "codec/text/epf.h"
 #include "fap/rate_text.h"

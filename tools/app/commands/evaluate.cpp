@@ -24,7 +24,7 @@ namespace animeme::tools {
 
 namespace {
 
-// A model, or somebody's tracks: ID.csv or ID.fap in a folder, or models that are trained for this.
+// A model; a folder of tracks (ID.csv or ID.fap); or models of a cross-validation.
 struct System {
   std::string path;
   std::optional<dam::Model> model;  // none: tracks or folds
@@ -67,18 +67,6 @@ Result<std::vector<dam::SentencePair>> pairs_of_folds(const System& system,
     return true;
   };
   return inspect::cross_validate(recorded, folds);
-}
-
-// What the tracker did is no fault of the system's.
-std::vector<dam::Glitch> leave_out_glitches(std::vector<dam::SentencePair>& pairs) {
-  std::vector<const dam::Utterance*> recorded;
-  for (const dam::SentencePair& pair : pairs) recorded.push_back(&pair.recorded);
-  const dam::CleanedSentences mended = dam::remove_glitches(recorded, dam::ShortGlitches::omit);
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (mended.sentences[i] != &pairs[i].recorded) pairs[i].recorded = *mended.sentences[i];
-  }
-  for (const std::string& text : inspect::glitches_text(mended.glitches)) warn(text);
-  return mended.glitches;
 }
 
 // The sentences with what the system makes of them.
@@ -177,7 +165,7 @@ bool has_gap(const dam::Evaluation& result) {
                      [](const dam::SeriesScore& one) { return one.name == "inner_gap"; });
 }
 
-// What the thresholds have to say; each is off below 0. One that cannot be told has failed.
+// Checks the thresholds; each is off below 0. A measure without a value fails.
 std::vector<std::string> failed_checks(const EvaluateOptions& options,
                                        const dam::Evaluation& result) {
   std::vector<std::string> failed;
@@ -255,7 +243,8 @@ Result<inspect::EvaluationReport> evaluate_all(const EvaluateOptions& options,
   if (!pairs) return pairs.error().in_file(corpus.folder);
   inspect::EvaluationReport report;
   report.left_out = std::move(recorded->left_out);
-  report.glitches = leave_out_glitches(*pairs);
+  report.glitches = inspect::leave_out_glitches(*pairs);
+  for (const std::string& text : inspect::glitches_text(report.glitches)) warn(text);
   auto scale = scale_of(*system, *pairs);
   if (!scale) return scale.error();
   evaluate.score.scale = std::move(*scale);

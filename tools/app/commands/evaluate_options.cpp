@@ -1,8 +1,8 @@
 #include "tools/app/commands/evaluate_options.h"
 
 #include "tools/app/commands/options.h"
-#include "tools/app/commands/outputs.h"
 #include "tools/app/commands/train_base.h"
+#include "tools/formats/common/text.h"
 
 namespace animeme::tools {
 

@@ -275,7 +275,7 @@ Result<int> run(const ExportOptions& given) {
   }
   const Result<fap::Rate> rate = fap::parse_rate(options.rate);
   if (!rate) return rate.error();
-  // Before the input is read, so that a wrong name is told at once.
+  // Before the input is read, so that a wrong name fails at once.
   const std::string named = what_of(options, false);
   if (!options.format.empty() && named != "rhubarb") {
     return usage_error("-f is for Rhubarb mouth shapes (--what rhubarb)");

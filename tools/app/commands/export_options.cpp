@@ -2,7 +2,6 @@
 
 #include "tools/app/commands/head_options.h"
 #include "tools/app/commands/options.h"
-#include "tools/app/commands/outputs.h"
 #include "tools/app/commands/script_options.h"
 
 namespace animeme::tools {

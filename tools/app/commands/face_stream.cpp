@@ -3,14 +3,12 @@
 #include <cmath>
 #include <filesystem>
 
-#include "codec/encode/encode.h"
 #include "tools/app/commands/interrupt.h"
 #include "tools/app/commands/options.h"
 #include "tools/app/commands/report.h"
 #include "tools/formats/common/bit_rate.h"
 #include "tools/formats/common/text.h"
 #include "tools/formats/files/cost.h"
-#include "tools/formats/media/mux.h"
 
 namespace animeme::tools {
 

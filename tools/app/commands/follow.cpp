@@ -14,10 +14,10 @@
 #include "tools/app/commands/motion_options.h"
 #include "tools/formats/common/json.h"
 #include "tools/formats/exchange/curves.h"
-#include "tools/speech/talking/heard_face.h"
 #include "tools/speech/talking/phone_line.h"
 #include "tools/speech/talking/sound_bytes.h"
 #include "tools/speech/talking/spoken.h"
+#include "tools/speech/talking/voice_driven_face.h"
 
 namespace animeme::tools {
 
@@ -31,7 +31,7 @@ struct FollowOptions {
   std::string audio;
   std::string pcm;
   std::string language = "en";
-  double delay = speech::HeardFaceOptions().delay;
+  double delay = speech::VoiceDrivenFaceOptions().delay;
   LengthLimit length;
   bool json = false;
 };
@@ -99,14 +99,14 @@ Result<int> follow_sound(const FollowOptions& options, const dam::Model& model,
                                              : ::open(options.audio.c_str(), O_RDONLY | O_CLOEXEC)};
   if (from.number < 0) return make_error(Code::not_found, "it cannot be opened").in_file(name);
   speech::SoundBytes sound(bare);
-  std::unique_ptr<speech::HeardFace> face;
+  std::unique_ptr<speech::VoiceDrivenFace> face;
   const auto open = [&](int sample_rate) -> Result<void> {
-    speech::HeardFaceOptions settings;
+    speech::VoiceDrivenFaceOptions settings;
     settings.synthesis = options.motion;
     settings.synthesis.rate = rate;
     settings.language = options.language;
     settings.delay = options.delay;
-    auto opened = speech::HeardFace::open(model, sample_rate, settings);
+    auto opened = speech::VoiceDrivenFace::open(model, sample_rate, settings);
     if (!opened) return opened.error();
     face = std::move(*opened);
     return {};

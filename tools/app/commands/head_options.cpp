@@ -1,8 +1,6 @@
 #include "tools/app/commands/head_options.h"
 #include "tools/app/commands/options.h"
 
-#include <filesystem>
-
 namespace animeme::tools {
 
 const char* const kHeadHelp =

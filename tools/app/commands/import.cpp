@@ -128,7 +128,7 @@ Result<void> write_clip(const std::string& path, const CapturedFace& captured, b
   if (extension_of(path) == ".csv") return write_curves(path, captured);
   const fap::Sequence& clip = captured.clip;
   FaceText face = face_text(clip);
-  face.coded = exact;  // nobody has coded it: as it is
+  face.coded = exact;  // it was never coded: exact
   OutputFile file(path);
   const Result<std::int64_t> frames = write_face_text(file, name_of_output(path), face);
   if (!frames) return frames.error();
@@ -150,7 +150,7 @@ Result<std::vector<Capture>> read_captures(const ImportOptions& options,
                                            const CaptureSettings& settings) {
   std::vector<Capture> captures;
   ProgressLine line("tracking");
-  std::optional<Interrupt> interrupt;  // who types a table ends it as ever
+  std::optional<Interrupt> interrupt;  // Ctrl-C ends a table that is typed, as usual
   if (settings.tracker) interrupt.emplace();
   CaptureSettings watched = settings;
   watched.tracking.at = [&](double share) { line.update(share); };

@@ -186,7 +186,7 @@ std::string as_text(const std::vector<Loaded>& modules, const std::vector<Found>
   for (const Library* library : absent)
     out << "  " << library->name << " (" << library->use << ")\n";
   std::string text = out.str();
-  text.pop_back();  // who prints it ends the line
+  text.pop_back();  // the caller ends the line
   return text;
 }
 

@@ -1,5 +1,4 @@
 // From videos and transcripts to a corpus that `animeme train` reads.
-#include <filesystem>
 #include <iostream>
 
 #include "tools/app/commands/capture_options.h"

@@ -161,6 +161,12 @@ ParsedLine parse_line(OptionTable& program, OptionTable* command,
     return {What::help_all, {}};
   } catch (const CLI::CallForVersion&) {
     return {What::version, {}};
+  } catch (const CLI::ExcludesError& error) {  // "--text excludes --script"
+    std::string pair = error.what();
+    if (const std::size_t at = pair.find(" excludes "); at != pair.npos) {
+      pair.replace(at, 10, " and ");
+    }
+    return {What::fail, pair + " cannot be used together"};
   } catch (const CLI::ParseError& error) {
     return {What::fail, error.what()};
   }

@@ -12,7 +12,6 @@
 #include "tools/app/commands/script_options.h"
 #include "tools/formats/files/cost.h"
 #include "tools/speech/talking/voice_file.h"
-#include "tools/view/render/png.h"
 #include "tools/view/render/scene.h"
 #include "tools/view/studio/frames.h"
 #include "tools/view/studio/head_view.h"

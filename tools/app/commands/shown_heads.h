@@ -31,7 +31,7 @@ struct ShownHead {
 /// What is wrong with them, as far as names tell. Empty: nothing.
 std::string problem_of(const HeadChoices& choices);
 
-/// Loads them. What was made smaller is told. Errors: those of studio::load_head().
+/// Loads them and logs which textures were scaled. Errors: those of studio::load_head().
 Result<std::vector<std::unique_ptr<ShownHead>>> load_shown(const HeadChoices& choices);
 
 /// Loads them for the page of a web server. Errors: as load_shown().

@@ -171,13 +171,13 @@ Json doubtful_words(const speech::Spoken& spoken) {
   return list;
 }
 
-struct HeardPhone {
+struct RecognisedPhone {
   dam::Phone phone;
   double confidence = 0;
 };
 
-std::vector<HeardPhone> heard_phones(const speech::Spoken& spoken) {
-  std::vector<HeardPhone> all;
+std::vector<RecognisedPhone> heard_phones(const speech::Spoken& spoken) {
+  std::vector<RecognisedPhone> all;
   for (std::size_t i = 0; i < spoken.script.phones.size(); ++i) {
     all.push_back({spoken.script.phones[i], spoken.heard->confidences[i]});
   }
@@ -221,13 +221,13 @@ void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam
   if (options.outputs.size() > 1) json["outputs"] = options.outputs;
   if (heard) {
     json["warnings"] = spoken.heard->warnings;
-    json["heard"] = json_list(heard_phones(spoken), [](const HeardPhone& one) -> Json {
+    json["heard"] = json_list(heard_phones(spoken), [](const RecognisedPhone& one) -> Json {
       return {{"start", one.phone.start},
               {"end", one.phone.end},
               {"phone", one.phone.label},
               {"confidence", one.confidence}};
     });
-    json["words"] = json_list(spoken.heard->words, [](const voice::HeardWord& one) -> Json {
+    json["words"] = json_list(spoken.heard->words, [](const voice::RecognisedWord& one) -> Json {
       return {{"word", one.text},
               {"start", one.start},
               {"end", one.end},
@@ -240,7 +240,7 @@ void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam
 // options.output, of a face that moves by the phones alone.
 Result<int> write_output(const SpeakOptions& options, dam::Signal signal,
                          const speech::Spoken& spoken) {
-  // A model's curves are its own, and who knows visemes only knows no brows.
+  // Curves belong to the model's rig, and players of visemes have no brows.
   const bool curves = extension_of(options.output) == ".csv" && !is_arkit_output(options.output);
   const bool plain = curves || options.visemes == "instead";
   if (options.idle_motion.value_or(!plain)) {

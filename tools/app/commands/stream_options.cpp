@@ -3,7 +3,6 @@
 #include "tools/app/commands/head_options.h"
 #include "tools/app/commands/motion_options.h"
 #include "tools/app/commands/options.h"
-#include "tools/app/commands/outputs.h"
 #include "tools/app/commands/spoken_options.h"
 
 namespace animeme::tools {

@@ -11,7 +11,6 @@
 #include "tools/app/commands/command.h"
 #include "tools/app/commands/report.h"
 #include "tools/formats/common/code_name.h"
-#include "tools/formats/files/output_file.h"
 
 namespace animeme::tools {
 

@@ -91,7 +91,7 @@ std::string misuse(const TrainOptions& options) {
   return {};
 }
 
-// Options that mean nothing to most methods: said, rather than swallowed.
+// Options that the method ignores are an error.
 std::string misplaced(const TrainOptions& options) {
   for (const auto& [option, owner] : options.of_methods) {
     const std::string names = std::string(" ") + owner + " ";

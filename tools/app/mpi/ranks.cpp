@@ -1,7 +1,5 @@
 #include "tools/app/mpi/ranks.h"
 
-#include <cstdlib>
-
 #include "tools/formats/common/module.h"
 
 namespace animeme::mpi {

@@ -1,6 +1,4 @@
 // Clips: frames, text, whole streams, filling.
-#include <limits>
-#include <string>
 
 #include "codec/decode/decoder.h"
 #include "fap/text.h"
@@ -14,7 +12,7 @@ namespace {
 
 constexpr std::string_view kClipIsNull = "clip is NULL";
 
-// Gives out a clip whose absent FAPs are as `rules` say, or nobody knows.
+// Returns a clip; `rules` say what its absent FAPs mean, if that is known.
 animeme_status give_clip(animeme_clip** out, fap::Sequence sequence,
                          std::vector<fap::GroupRules> rules = {}) {
   auto clip = std::make_unique<animeme_clip>();

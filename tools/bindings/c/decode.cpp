@@ -1,5 +1,4 @@
 // The decoder.
-#include <string>
 
 #include "codec/decode/decoder.h"
 #include "codec/decode/fill.h"

@@ -1,5 +1,4 @@
 // The encoders: live and of whole clips.
-#include <string>
 
 #include "codec/encode/encode.h"
 #include "codec/encode/live.h"
@@ -137,7 +136,7 @@ animeme_status animeme_encoder_new(const animeme_encode_options* options, animem
     const auto status = c::take_options(options, ANIMEME_PRESET_LIVE, taken, error);
     if (status != ANIMEME_OK) return status;
     const fba::LiveOptions live = c::live_options_of(taken);
-    // The options are looked at with the first frame; who makes an encoder wants to know now.
+    // The encoder checks its options with the first frame; check them here.
     if (auto tried = fba::LiveEncoder(live).write({}); !tried) return c::fail(error, tried.error());
     return c::give(encoder, std::make_unique<animeme_encoder>(
                                 animeme_encoder{fba::LiveEncoder(live), {}, false}));

@@ -1,6 +1,5 @@
 // Frames and failures between C and C++.
 #include <algorithm>
-#include <string>
 
 #include "fap/tables.h"
 #include "tools/bindings/c/c_internal.h"

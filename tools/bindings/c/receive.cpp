@@ -1,6 +1,5 @@
 // Frame by frame: what a receiver shows, visemes as low-level FAPs, ARKit weights.
 #include <algorithm>
-#include <string>
 
 #include "fap/arkit.h"
 #include "fap/expand.h"

@@ -1,6 +1,5 @@
 // Scripts to frames, at once or as they are made.
 #include <deque>
-#include <string>
 
 #include "dam/model/builtin.h"
 #include "dam/model/model.h"

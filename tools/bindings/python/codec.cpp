@@ -52,7 +52,7 @@ Clip decode(const py::buffer& stream) {
 std::vector<std::uint8_t> coded(const fap::Sequence& clip, const Coding& coding,
                                 const py::object& progress) {
   fba::EncodeOptions options = options_of(coding);
-  // The encoder asks nobody whether to go on: it is left.
+  // The encoder has no way to cancel: an exception leaves it.
   struct Stopped {};
   Watch watch(progress);
   options.progress = [&watch](double share) {

@@ -1,5 +1,4 @@
 // Values of Python as those of the libraries, and back.
-#include <cmath>
 #include <limits>
 
 #include "fap/rate_text.h"

@@ -38,7 +38,7 @@ std::vector<dam::Utterance> narrowed(const std::vector<dam::Utterance>& sentence
   return all;
 }
 
-// Sentence by sentence, so that somebody may wait no longer.
+// In batches, so that the user can interrupt it.
 Result<std::vector<dam::SentencePair>> speak_all(const dam::Model& model,
                                                  const std::vector<dam::Utterance>& sentences,
                                                  const dam::EvaluateOptions& options,
@@ -56,17 +56,6 @@ Result<std::vector<dam::SentencePair>> speak_all(const dam::Model& model,
     }
   }
   return pairs;
-}
-
-// What the tracker did is no fault of the model's.
-std::vector<dam::Glitch> leave_out_glitches(std::vector<dam::SentencePair>& pairs) {
-  std::vector<const dam::Utterance*> recorded;
-  for (const dam::SentencePair& pair : pairs) recorded.push_back(&pair.recorded);
-  dam::CleanedSentences mended = dam::remove_glitches(recorded, dam::ShortGlitches::omit);
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (mended.sentences[i] != &pairs[i].recorded) pairs[i].recorded = *mended.sentences[i];
-  }
-  return std::move(mended.glitches);
 }
 
 std::unique_ptr<EvaluationReport> evaluate(const Model& model, const py::object& sentences,
@@ -89,7 +78,7 @@ std::unique_ptr<EvaluationReport> evaluate(const Model& model, const py::object&
     const auto recorded = narrowed(corpus->corpus.utterances, model.model);
     auto pairs = speak_all(model.model, recorded, options, watch);
     if (!pairs) return pairs.error();
-    report->glitches = leave_out_glitches(*pairs);
+    report->glitches = inspect::leave_out_glitches(*pairs);
     auto result = dam::score(*pairs, options.score);
     if (!result) return result.error();
     report->evaluation = std::move(*result);

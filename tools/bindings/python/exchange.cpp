@@ -136,7 +136,7 @@ std::optional<Result<std::string>> text_of(const fap::Sequence& clip, const std:
 }
 
 Result<void> write_media(const std::vector<std::uint8_t>& stream, const std::string& path,
-                         const Beside& beside, Heard& heard) {
+                         const Beside& beside, WarningLog& heard) {
   const auto units = fba::split_access_units(stream);
   if (!units) return units.error();
   media::MuxInput input{.face = &*units, .audio = beside.sound};
@@ -172,7 +172,7 @@ void save(const fap::Sequence& clip, const std::string& path, const Coding& codi
   if (ending == ".fba") {
     return value_of(unlocked([&] { return tools::write_file(path, stream); }));
   }
-  Heard heard;
+  WarningLog heard;
   auto written = unlocked([&] { return write_media(stream, path, beside, heard); });
   heard.tell(beside.sound_file);
   value_of(std::move(written));

@@ -58,7 +58,7 @@ std::unique_ptr<Head> make_head(const py::object& name, const py::object& points
   for (int part = 0; part < head::kPartCount; ++part) {
     const auto& shape = self->rig.parts[std::size_t(part)];
     const auto first = std::uint32_t(vertices);
-    // Veils, which are drawn and do not move, stand behind those of the mesh.
+    // Transparent triangles, which do not move, follow those of the mesh.
     const std::size_t solid = self->head.parts[std::size_t(part)].triangles.size();
     for (std::size_t i = 0; i < std::min(solid, shape.triangles.size()); ++i) {
       const head::Triangle& t = shape.triangles[i];
@@ -91,7 +91,7 @@ py::array_t<float> frames_of(const Head& self, const fap::Sequence& clip,
   return out;
 }
 
-// What a person means who gives values alone: FAPs at 0 were not thought of.
+// Values without a mask: FAPs at 0 count as not given.
 fap::Frame thought_of(fap::Frame frame) {
   for (int fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
     if (frame.value[std::size_t(fap)] == 0) frame.mask.reset(std::size_t(fap));

@@ -79,7 +79,7 @@ std::unique_ptr<fba::LiveEncoder> make_encoder(const py::object& rate, int quant
   options.rate = rate_of(rate);
   options.fap_quant = quant;
   options.intra_seconds = intra_seconds;
-  // The options are looked at with the first frame; who makes an encoder wants to know now.
+  // The encoder checks its options with the first frame; check them here.
   if (auto tried = fba::LiveEncoder(options).write({}); !tried) raise(tried.error());
   return std::make_unique<fba::LiveEncoder>(options);
 }

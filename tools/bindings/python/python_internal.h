@@ -36,7 +36,7 @@ namespace py = pybind11;
 /// Warns with animeme.InputWarning; throws where the user made warnings errors.
 void warn(const std::string& sentence);
 /// Collects what a library has to say while the interpreter belongs to others.
-struct Heard {
+struct WarningLog {
   std::vector<std::string> sentences;             ///< for warn()
   tools::Log log();                               ///< puts them there
   void tell(const std::string& file = {}) const;  ///< warns of all

@@ -38,13 +38,13 @@ void warn(const std::string& sentence) {
   py::module_::import("warnings").attr("warn")(text, type_named("InputWarning"), 1);
 }
 
-tools::Log Heard::log() {
+tools::Log WarningLog::log() {
   tools::Log log;
   log.warn = [this](const std::string& sentence) { sentences.push_back(sentence); };
   return log;
 }
 
-void Heard::tell(const std::string& file) const {
+void WarningLog::tell(const std::string& file) const {
   for (const std::string& sentence : sentences) {
     warn(file.empty() ? sentence : file + ": " + sentence);
   }

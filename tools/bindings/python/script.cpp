@@ -13,7 +13,7 @@ py::list read_script(const py::object& file, const std::string& lang) {
   const std::string path = path_of(file);
   speech::ScriptInput input;
   input.language = lang;
-  Heard heard;
+  WarningLog heard;
   auto script = unlocked([&] { return speech::read_script(path, input, heard.log()); });
   heard.tell();
   return phones_of(value_of(std::move(script)));

@@ -1,6 +1,5 @@
 // Speech: text, phones or a recorded voice in, a face with its sound out.
 #include <cmath>
-#include <cstring>
 
 #include "dam/signal/fap_signal.h"
 #include "dam/speaking/idle_motion.h"
@@ -12,7 +11,7 @@ namespace animeme::python {
 
 namespace {
 
-// What was said, and how the face moves.
+// The spoken script and the motion of the face.
 struct Speech {
   speech::Spoken spoken;
   dam::Signal signal;
@@ -25,7 +24,8 @@ struct Motion {
   std::uint64_t seed = 1;
 };
 
-Result<Speech> spoken_of(speech::SpokenOptions source, const dam::Script* script, Heard& heard) {
+Result<Speech> spoken_of(speech::SpokenOptions source, const dam::Script* script,
+                         WarningLog& heard) {
   if (script == nullptr) {
     auto spoken = speech::get_spoken(source, heard.log());
     if (!spoken) return spoken.error();
@@ -94,7 +94,7 @@ std::unique_ptr<Speech> speak(const Model& model, const py::object& said, const 
                  .articulation = articulation},
                 idle_motion,
                 seed};
-  Heard heard;
+  WarningLog heard;
   auto speech = unlocked([&]() -> Result<Speech> {
     auto made = spoken_of(source, script ? &*script : nullptr, heard);
     if (!made) return made;

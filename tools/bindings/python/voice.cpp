@@ -1,27 +1,26 @@
 // A face that follows a voice while it speaks: samples in, frames out.
 #include <algorithm>
 
-#include "dam/signal/fap_signal.h"
 #include "tools/bindings/python/python_internal.h"
-#include "tools/speech/talking/heard_face.h"
+#include "tools/speech/talking/voice_driven_face.h"
 
 namespace animeme::python {
 
 namespace {
 
-std::unique_ptr<speech::HeardFace> make_voice(const Model& model, int sample_rate,
-                                              const std::string& lang, const py::object& rate,
-                                              double delay, double style, double sharpness,
-                                              double articulation, bool closure) {
-  const speech::HeardFaceOptions options{{.rate = rate_of(rate),
-                                          .closure = closure,
-                                          .style = style,
-                                          .sharpness = sharpness,
-                                          .articulation = articulation},
-                                         lang,
-                                         delay};
+std::unique_ptr<speech::VoiceDrivenFace> make_voice(const Model& model, int sample_rate,
+                                                    const std::string& lang, const py::object& rate,
+                                                    double delay, double style, double sharpness,
+                                                    double articulation, bool closure) {
+  const speech::VoiceDrivenFaceOptions options{{.rate = rate_of(rate),
+                                                .closure = closure,
+                                                .style = style,
+                                                .sharpness = sharpness,
+                                                .articulation = articulation},
+                                               lang,
+                                               delay};
   return value_of(
-      unlocked([&] { return speech::HeardFace::open(model.model, sample_rate, options); }));
+      unlocked([&] { return speech::VoiceDrivenFace::open(model.model, sample_rate, options); }));
 }
 
 // One channel: whole numbers of 16 bits, or others with full scale +-1.
@@ -44,8 +43,8 @@ std::vector<float> samples_of(const py::object& samples_like) {
 }  // namespace
 
 void bind_voice(py::module_& module) {
-  py::class_<speech::HeardFace>(module, "VoiceStream",
-                                R"(Follows a live voice by its sound: samples in, frames out.
+  py::class_<speech::VoiceDrivenFace>(module, "VoiceStream",
+                                      R"(Follows a live voice by its sound: samples in, frames out.
 
     for block in microphone:
         show(stream.push(block))
@@ -68,7 +67,7 @@ style, sharpness, articulation, closure: as for Model.speak().
 Raises Error.)")
       .def(
           "push",
-          [](speech::HeardFace& face, const py::object& samples) {
+          [](speech::VoiceDrivenFace& face, const py::object& samples) {
             const std::vector<float> some = samples_of(samples);
             return array_of(value_of(unlocked([&] {
               face.push(some);
@@ -83,7 +82,7 @@ samples: (n,) int16, or floats with full scale +-1; one channel.
 Frames do not depend on how the samples are split. Raises Error. Releases the GIL.)")
       .def(
           "finish",
-          [](speech::HeardFace& face) {
+          [](speech::VoiceDrivenFace& face) {
             return array_of(value_of(unlocked([&] { return face.finish(); })));
           },
           "Ends the voice; returns the remaining frames, float64 (frames, controls).");

@@ -4,17 +4,13 @@
 #include <filesystem>
 #include <map>
 
-#include "tools/characters/capture/corpus_report.h"
 #include "tools/characters/capture/corpus_sentence_internal.h"
 #include "tools/characters/capture/corpus_signal.h"
 #include "tools/characters/capture/cut.h"
 #include "tools/characters/capture/tracked_cache.h"
 #include "tools/formats/common/text.h"
-#include "tools/formats/exchange/curves.h"
-#include "tools/formats/exchange/face_file.h"
 #include "tools/formats/files/file_lock.h"
 #include "tools/formats/files/files.h"
-#include "tools/formats/media/audio.h"
 #include "tools/speech/talking/voice_file.h"
 #include "tools/speech/voice/align.h"
 

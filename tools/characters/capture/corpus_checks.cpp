@@ -115,7 +115,7 @@ std::optional<double> lag_of_lips(const std::vector<const dam::Signal*>& signals
       const auto& phones = scripts[i]->phones;
       for (std::size_t p = 1; p + 1 < phones.size(); ++p) {
         const dam::Phone& phone = phones[p];
-        // Beside silence nobody knows how long the lips have been closed.
+        // Next to silence the duration of the closure is unknown.
         if (!dam::is_bilabial(phone.label) || phones[p - 1].label == dam::kSilence ||
             phones[p + 1].label == dam::kSilence) {
           continue;

@@ -39,7 +39,7 @@ Result<void> TrackedCache::keep(const std::string& id, const std::string& video,
   if (error) {
     return make_error(Code::io, "the folder cannot be made: " + error.message()).in_file(folder);
   }
-  // The key last: without it the table is nobody's.
+  // The key last: a table without a key is ignored.
   if (auto ok = write_file(folder + "/" + id + ".csv", table); !ok) return ok;
   return write_file(folder + "/" + id + ".key", key_of(video, settings));
 }

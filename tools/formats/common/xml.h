@@ -8,8 +8,7 @@
 
 namespace animeme::tools {
 
-/// Escapes text for an element, or for an attribute in quotes of either kind. (fap/xml has its own
-/// xml_escaped(), as it cannot depend on tools/, and it keeps the line ends of attributes.)
+/// Escapes text for an element, or for an attribute in quotes of either kind.
 inline std::string escape_xml(std::string_view text) {
   std::string out;
   for (const char c : text) {

@@ -6,7 +6,6 @@
 #include "dam/signal/arkit_signal.h"
 #include "dam/signal/fap_signal.h"
 #include "fap/fill.h"
-#include "fap/tables.h"
 #include "tools/formats/exchange/arkit.h"
 #include "tools/formats/exchange/detail/json_text.h"
 

@@ -79,7 +79,7 @@ std::optional<std::string> meaning_for(const ColumnRule& rule, std::string_view 
   const std::string_view text =
       column.substr(front.size(), column.size() - front.size() - back.size());
   if (at != std::string::npos) meaning.replace(at, 1, text);
-  return known_name(meaning);  // nothing: what the star stands for makes no sense here
+  return known_name(meaning);  // empty: the text of the star is not valid here
 }
 
 struct Column {

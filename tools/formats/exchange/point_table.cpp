@@ -18,19 +18,7 @@ struct PointColumn {
   bool space = false;  // X61, not x61
 };
 
-std::optional<std::size_t> point_axis(char c) {
-  if (c == 'x' || c == 'X') return 0;
-  if (c == 'y' || c == 'Y') return 1;
-  if (c == 'z' || c == 'Z') return 2;
-  return std::nullopt;
-}
-
 bool is_point_break(char c) { return c == '_' || c == '-' || c == ' ' || c == '.' || c == ':'; }
-
-bool is_point_number(std::string_view text) {
-  return !text.empty() && text.size() <= 6 &&
-         std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
-}
 
 // "landmark_12" and the like are 12; other names stay as they are.
 std::string point_name(std::string_view name) {
@@ -38,19 +26,19 @@ std::string point_name(std::string_view name) {
     if (!lower_case(name).starts_with(prefix)) continue;
     std::string_view rest = name.substr(prefix.size());
     while (!rest.empty() && is_point_break(rest[0])) rest.remove_prefix(1);
-    if (is_point_number(rest)) return std::string(rest);
+    if (is_short_number(rest)) return std::string(rest);
   }
   return std::string(name);
 }
 
 std::optional<PointColumn> parse_column(std::string_view name) {
   if (name.size() < 2) return std::nullopt;
-  if (const auto axis = point_axis(name[0])) {
+  if (const auto axis = axis_of(name[0])) {
     std::string_view rest = name.substr(1);
     if (is_point_break(rest[0])) rest.remove_prefix(1);
-    if (is_point_number(rest)) return PointColumn{std::string(rest), *axis, name[0] < 'a'};
+    if (is_short_number(rest)) return PointColumn{std::string(rest), *axis, name[0] < 'a'};
   }
-  const auto axis = point_axis(name.back());
+  const auto axis = axis_of(name.back());
   if (!axis || name.size() < 3 || !is_point_break(name[name.size() - 2])) return std::nullopt;
   const std::string_view point = dam::trimmed(name.substr(0, name.size() - 2));
   if (point.empty() || lower_case(point).starts_with("gaze_")) return std::nullopt;

@@ -112,7 +112,7 @@ double reach_of(const fap::LandmarkTrack& track, const Eyes& eyes) {
 }
 
 // Indices of frames that are away from the last one that was not, and back within `most` numbers.
-// `there` tells whether a frame counts, `away` whether one is away from another.
+// `there`: does a frame count? `away`: is a frame far from another one?
 template <class There, class Away>
 std::vector<std::size_t> excursions(const std::vector<fap::LandmarkFrame>& frames, double most,
                                     const There& there, const Away& away) {

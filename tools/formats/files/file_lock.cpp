@@ -14,7 +14,7 @@ namespace animeme::tools {
 
 namespace {
 
-// Did the one who had it before remove the file that was just locked?
+// The previous owner may have removed the file that was just locked.
 bool still_there(const std::string& name, int descriptor) {
   struct stat by_name = {}, locked = {};
   return ::lstat(name.c_str(), &by_name) == 0 && ::fstat(descriptor, &locked) == 0 &&
@@ -31,7 +31,7 @@ FileLock::FileLock(FileLock&& other) noexcept
 
 FileLock::~FileLock() {
   if (descriptor_ < 0) return;
-  ::unlink(name_.c_str());  // first, so that nobody locks a file that is about to go
+  ::unlink(name_.c_str());  // first, so that no process locks a removed file
   ::close(descriptor_);
 }
 

@@ -79,7 +79,7 @@ bool write_all(int descriptor, std::span<const std::uint8_t> bytes) {
   return true;
 }
 
-// Whose file it was and who may read it.
+// Keeps owner and permissions.
 void keep_mode(int descriptor, const struct stat& old) {
   // To give a file away takes rights that few have; its mode is kept by all.
   if (::fchown(descriptor, old.st_uid, old.st_gid) != 0) errno = 0;

@@ -1,7 +1,5 @@
 #include "tools/formats/inspect/adaptation.h"
 
-#include <algorithm>
-
 #include "tools/formats/common/json.h"
 #include "tools/formats/common/text.h"
 #include "tools/formats/inspect/left_out.h"

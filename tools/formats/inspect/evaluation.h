@@ -29,6 +29,10 @@ Result<std::vector<dam::SentencePair>> pair_up(std::vector<dam::Utterance> track
 /// have as well. `pairs` is not empty. Errors: not_found if there is no such control.
 Result<std::vector<dam::Control>> scale_of(const std::vector<dam::SentencePair>& pairs);
 
+/// Replaces the recordings by those without glitches, so that errors of the tracker do not count as
+/// errors of the system. Returns the glitches. See dam::remove_glitches().
+std::vector<dam::Glitch> leave_out_glitches(std::vector<dam::SentencePair>& pairs);
+
 /// Effect of coding on the motion.
 struct CodecScore {
   std::size_t bytes = 0;  ///< of all streams

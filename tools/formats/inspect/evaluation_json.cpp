@@ -38,7 +38,7 @@ Json spread_json(const dam::TimeSpread& spread) {
   return {{"count", spread.count}, {"mean_ms", spread.mean}, {"sd_ms", spread.sd}};
 }
 
-Json shut_json(const dam::ClosureDurationScore& one) {
+Json duration_json(const dam::ClosureDurationScore& one) {
   return {{"from_ms", 1000 * one.from},
           {"to_ms", std::isfinite(one.to) ? Json(1000 * one.to) : Json(nullptr)},
           {"phones", one.phones},
@@ -58,7 +58,7 @@ Json closure_json(const dam::ClosureScore& closure) {
           {"stray_predicted_per_minute", closure.stray_predicted_per_minute},
           {"onset", spread_json(closure.onset)},
           {"release", spread_json(closure.release)},
-          {"shut", json_list(closure.durations, shut_json)}};
+          {"durations", json_list(closure.durations, duration_json)}};
 }
 
 Json lag_json(const dam::LagScore& lag) {

@@ -63,4 +63,14 @@ Result<std::vector<dam::Control>> scale_of(const std::vector<dam::SentencePair>&
                     "call FAP columns fapN_name, like fap3_open_jaw");
 }
 
+std::vector<dam::Glitch> leave_out_glitches(std::vector<dam::SentencePair>& pairs) {
+  std::vector<const dam::Utterance*> recorded;
+  for (const dam::SentencePair& pair : pairs) recorded.push_back(&pair.recorded);
+  dam::CleanedSentences mended = dam::remove_glitches(recorded, dam::ShortGlitches::omit);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (mended.sentences[i] != &pairs[i].recorded) pairs[i].recorded = *mended.sentences[i];
+  }
+  return std::move(mended.glitches);
+}
+
 }  // namespace animeme::inspect

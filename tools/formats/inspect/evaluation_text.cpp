@@ -47,8 +47,8 @@ std::string length_text(const dam::ClosureDurationScore& one) {
   return format("%.0f to %.0f ms", 1000 * one.from, 1000 * one.to);
 }
 
-void add_shut(std::string& out, const dam::ClosureScore& closure) {
-  const char* what = "shut for";
+void add_durations(std::string& out, const dam::ClosureScore& closure) {
+  const char* what = "closed for";
   for (const dam::ClosureDurationScore& one : closure.durations) {
     if (one.phones == 0) continue;
     out += format("  %-15s %.0f ms (measured %.0f), phones of %s: %zu\n", what, one.predicted,
@@ -66,7 +66,7 @@ void add_lips(std::string& out, const EvaluationReport& report) {
                   report.closed_gap);
     add_spread(out, "onset", e.closure.onset);
     add_spread(out, "release", e.closure.release);
-    add_shut(out, e.closure);
+    add_durations(out, e.closure);
     out += format(
         "false closures    %.1f a minute; other lip closures per minute: synthesised %.1f, "
         "recorded %.1f\n",

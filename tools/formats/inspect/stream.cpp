@@ -1,12 +1,10 @@
 #include "tools/formats/inspect/stream_internal.h"
 
 #include <algorithm>
-#include <string>
 
 #include "fap/rate_text.h"
 #include "fap/tables.h"
 #include "tools/formats/common/bit_rate.h"
-#include "tools/formats/common/json.h"
 #include "tools/formats/common/text.h"
 #include "tools/formats/inspect/activity.h"
 

@@ -114,7 +114,7 @@ std::string training_json(const std::string& output, const dam::Model& model,
   json["unknown_phones"] = json_list(summary.unknown, [](const dam::UnknownPhone& one) {
     return Json{{"phone", one.label}, {"spoken_as", one.spoken_as}};
   });
-  json["standing_out"] = json_list(summary.outliers, [](const dam::SentenceNote& one) {
+  json["outliers"] = json_list(summary.outliers, [](const dam::SentenceNote& one) {
     return Json{{"id", one.id}, {"offset", one.offset}, {"error", one.error}};
   });
   json["glitches"] = *Json::parse(glitches_json(summary.glitches));

@@ -1,7 +1,6 @@
 // Coded sound back to samples.
 #include <algorithm>
 #include <span>
-#include <utility>
 
 #include "tools/formats/media/audio.h"
 #include "tools/formats/media/detail/sound/audio_parameters.h"

@@ -66,7 +66,7 @@ Result<av::Codec> open_encoder(const AudioSettings& settings, int sample_rate,
   context->thread_count = 1;
   if (codec == AudioCodec::opus) {
     context->compression_level = settings.effort;
-    // What it would spend without having looked is far from what it was told.
+    // Without measuring first, its bit rate is far from the target.
     if (settings.effort < kAnalysing) av_opt_set(context->priv_data, "vbr", "constrained", 0);
   }
   if (codec == AudioCodec::aac) {

@@ -1,8 +1,6 @@
 #include "tools/formats/media/mux.h"
 
 #include <algorithm>
-#include <array>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <optional>

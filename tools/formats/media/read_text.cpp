@@ -63,7 +63,7 @@ Result<void> TextReader::take_text(const AVPacket& packet) {
   const AVStream& stream = *file_.streams[index];
   std::vector<TextCue>& cues = tracks_[std::size_t(place_[index])].cues;
   const double start = exact_seconds(packet.pts, stream.time_base);
-  // In fragments libavformat tells no durations; there a sample, if an empty one, follows each.
+  // libavformat gives no durations for fragments; there each sample ends at the next one.
   if (!cues.empty() && cues.back().end == kOpen) cues.back().end = start;
   std::string text =
       clean_text(text_of_packet(stream.codecpar->codec_id, packet), limits_.longest_text);

@@ -14,20 +14,20 @@ constexpr std::size_t kLastWords = 600;      // bytes of what a program said
 constexpr std::streamoff kLastRead = 16384;  // of which those are found
 constexpr double kLook = 0.2;                // seconds between looks at it
 
-// What a program said last: how far it is, and the rest.
-struct Said {
+// The last output of a program: its progress, and the rest.
+struct LastOutput {
   double share = -1;
   std::string words;
 };
 
-Said said_in(const std::string& path, const ProgramRun& run) {
+LastOutput said_in(const std::string& path, const ProgramRun& run) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   const std::streamoff size = file ? std::streamoff(file.tellg()) : 0;
   std::string text(std::size_t(std::min(size, kLastRead)), '\0');
   file.seekg(size - std::streamoff(text.size()));
   file.read(text.data(), std::streamsize(text.size()));
   text.resize(std::size_t(std::max<std::streamsize>(file.gcount(), 0)));
-  Said said;
+  LastOutput said;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find_first_of("\r\n", begin), text.size());
     const std::string line = text.substr(begin, end - begin);

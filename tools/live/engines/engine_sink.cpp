@@ -1,20 +1,197 @@
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
 #include <limits>
 #include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
 #include <utility>
+#include <vector>
 
+#include "fap/result.h"
 #include "tools/formats/media/live/live_frames.h"
+#include "tools/formats/media/rtp/udp_socket.h"
 #include "tools/live/engines/detail/engine_address.h"
-#include "tools/live/engines/detail/frame_grid.h"
+#include "tools/live/engines/detail/face.h"
 #include "tools/live/engines/detail/live_link.h"
-#include "tools/live/engines/detail/paced_sender.h"
 #include "tools/live/engines/detail/unified.h"
 #include "tools/live/engines/detail/vmc.h"
 #include "tools/live/engines/engines.h"
 
 namespace animeme::engines {
+
 namespace {
+
+class PacedSender {
+ public:
+  using Datagrams = std::vector<std::vector<std::uint8_t>>;
+
+  PacedSender(media::UdpSocket socket, const media::UdpAddress& to)
+      : socket_(std::move(socket)), to_(to) {}
+  ~PacedSender();
+  PacedSender(const PacedSender&) = delete;
+  PacedSender& operator=(const PacedSender&) = delete;
+
+  // Seconds of a steady clock, that of the instants.
+  static double now();
+  // Instants ascend. Errors: io, also of what went out before.
+  Result<void> send(double instant, Datagrams datagrams);
+  // Waits until everything has gone out.
+  Result<void> finish();
+
+ private:
+  struct Waiting {
+    double instant;
+    Datagrams datagrams;
+  };
+  void run();
+  void put(const Datagrams& datagrams);  // with the lock held
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Waiting> waiting_;
+  std::optional<Error> error_;
+  bool stop_ = false;
+  media::UdpSocket socket_;
+  media::UdpAddress to_;
+  std::thread thread_;
+};
+
+using SteadyClock = std::chrono::steady_clock;
+
+SteadyClock::time_point point_of(double instant) {
+  const std::chrono::duration<double> since(instant);
+  return SteadyClock::time_point(std::chrono::ceil<SteadyClock::duration>(since));
+}
+
+double PacedSender::now() {
+  return std::chrono::duration<double>(SteadyClock::now().time_since_epoch()).count();
+}
+
+PacedSender::~PacedSender() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  changed_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+void PacedSender::put(const Datagrams& datagrams) {
+  for (const auto& datagram : datagrams) {
+    if (auto sent = socket_.send(datagram, to_); !sent && !error_) error_ = sent.error();
+  }
+}
+
+Result<void> PacedSender::send(double instant, Datagrams datagrams) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (error_) return *error_;
+    if (waiting_.empty() && instant <= now()) {
+      put(datagrams);
+      return error_ ? Result<void>(*error_) : Result<void>();
+    }
+    waiting_.push_back({instant, std::move(datagrams)});
+    if (!thread_.joinable()) thread_ = std::thread([this] { run(); });
+  }
+  changed_.notify_all();
+  return {};
+}
+
+void PacedSender::run() {
+  std::unique_lock lock(mutex_);
+  while (!stop_) {
+    if (waiting_.empty()) {
+      changed_.wait(lock);
+      continue;
+    }
+    const double instant = waiting_.front().instant;
+    if (instant > now()) {
+      changed_.wait_until(lock, point_of(instant));
+      continue;
+    }
+    put(waiting_.front().datagrams);
+    waiting_.pop_front();
+    if (waiting_.empty()) changed_.notify_all();
+  }
+}
+
+Result<void> PacedSender::finish() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return waiting_.empty(); });
+  return error_ ? Result<void>(*error_) : Result<void>();
+}
+
+struct TimedFace {
+  double seconds = 0;  // presentation time
+  Face face;
+};
+
+class FrameGrid {
+ public:
+  // `rate`: frames a second; nothing: as many as there are planes.
+  explicit FrameGrid(std::optional<double> rate) : rate_(rate) {}
+
+  // The frames that are known once a plane is there, ascending: with a rate those up to it, on
+  // the way from the plane before, and those while it holds. That way is one frame of the
+  // stream long, `period` seconds: a plane that is shown for longer stays as it is until then.
+  std::vector<TimedFace> push(double seconds, double duration, double period, const Face& face);
+  // Those that are left when the last plane is over.
+  std::vector<TimedFace> finish();
+  // How much later than their time frames can go out, all of them: seconds, after a plane.
+  double delay() const { return rate_ ? period_ : 0; }
+
+ private:
+  std::optional<double> rate_;
+  double period_ = 0;
+  double end_ = 0;                 // of the last plane
+  std::optional<TimedFace> last_;  // plane
+  double next_ = 0;                // place on the grid
+};
+
+constexpr double kMostHold = 10;  // seconds that a plane is sent again at most
+constexpr double kLittle = 1e-6;  // seconds: what rounding may do
+
+std::vector<TimedFace> FrameGrid::push(double seconds, double duration, double period,
+                                       const Face& face) {
+  period_ = period;
+  std::vector<TimedFace> out;
+  const double held = std::min(duration, kMostHold);
+  if (!rate_) {
+    for (double at = 0; at == 0 || at < held - period / 2; at += period) {
+      out.push_back({seconds + at, face});
+    }
+    return out;
+  }
+  const bool first = !last_ || seconds < last_->seconds;
+  if (first) next_ = std::ceil((seconds - kLittle) * *rate_);
+  const double begin = first ? seconds : std::max(last_->seconds, seconds - period);
+  // A pause that was longer than is sent again leaves its places out.
+  next_ = std::max(next_, std::ceil((begin - kLittle) * *rate_));
+  for (; next_ / *rate_ < seconds + held - period + kLittle || next_ / *rate_ <= seconds + kLittle;
+       ++next_) {
+    const double at = next_ / *rate_;
+    const bool on_the_way = !first && at < seconds - kLittle && seconds > begin;
+    out.push_back({at, on_the_way ? between(last_->face, face,
+                                            std::clamp((at - begin) / (seconds - begin), 0.0, 1.0))
+                                  : face});
+  }
+  last_ = TimedFace{seconds, face};
+  end_ = seconds + held;
+  return out;
+}
+
+std::vector<TimedFace> FrameGrid::finish() {
+  std::vector<TimedFace> out;
+  if (!last_) return out;
+  for (; next_ / *rate_ < end_ - kLittle; ++next_) out.push_back({next_ / *rate_, last_->face});
+  last_.reset();
+  return out;
+}
 
 using media::LiveInfo;
 using media::LiveUnit;

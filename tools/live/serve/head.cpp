@@ -9,7 +9,7 @@ namespace animeme::serve {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kLinger = 1;  // seconds that a head stays awake when nobody wants it
+constexpr double kLinger = 1;  // seconds that a head runs on without viewers
 
 speech::SpeakerOptions speaker_options(const HeadSettings& settings, int voice_rate) {
   speech::SpeakerOptions options;

@@ -61,7 +61,7 @@ class HeadLines : public speech::LineSource, public std::enable_shared_from_this
 
   mutable std::mutex mutex_;  // for what follows
   bool making_ = false;
-  bool news_ = false;  // that nobody has taken
+  bool news_ = false;  // not read yet
   std::int64_t given_ = 0;
   mutable std::string warning_;
   std::mutex telling_;  // while changed_ is called

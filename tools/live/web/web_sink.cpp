@@ -51,7 +51,7 @@ class Sink : public WebSink {
         path_(std::move(path)),
         joined_(std::move(joined)) {}
   ~Sink() override {
-    if (shared_server_ && stage_) shared_server_->close(path_);
+    if (shared_server_ && broadcast_) shared_server_->close(path_);
   }
 
   Result<void> start(const media::LiveInfo& info) override {
@@ -59,13 +59,13 @@ class Sink : public WebSink {
   }
   Result<void> send(const LiveUnit& unit) override {
     return guarded([&]() -> Result<void> {
-      if (!stage_ || over_) return invalid("the sink is not running");
+      if (!broadcast_ || over_) return invalid("the sink is not running");
       return unit.track == LiveTrack::face ? send_face(unit) : send_sound(unit);
     });
   }
   Result<void> tell(const std::string& json) override {
     return guarded([&]() -> Result<void> {
-      if (!stage_ || over_) return invalid("the sink is not running");
+      if (!broadcast_ || over_) return invalid("the sink is not running");
       return publish_note(json);
     });
   }
@@ -73,7 +73,7 @@ class Sink : public WebSink {
 
   Result<void> finish() override {
     return guarded([&]() -> Result<void> {
-      if (!stage_ || over_) return {};
+      if (!broadcast_ || over_) return {};
       Result<void> flushed = flush();
       over_ = true;
       if (peer_connections_) peer_connections_->finish();
@@ -87,7 +87,7 @@ class Sink : public WebSink {
   }
 
   media::SendStats stats() const override {
-    media::SendStats stats = stage_ ? stage_->stats() : media::SendStats{};
+    media::SendStats stats = broadcast_ ? broadcast_->stats() : media::SendStats{};
     if (server_) stats.receivers = server_->viewers();
     if (peer_connections_) {
       const media::SendStats more = peer_connections_->stats();
@@ -103,7 +103,7 @@ class Sink : public WebSink {
   }
 
   std::string address() const override {
-    if (!stage_) return {};
+    if (!broadcast_) return {};
     const int port = shared_server_ ? shared_server_->port() : server_->port();
     const std::string text = WebAddress{address_.host, port}.text();
     return shared_server_ ? text + path_.substr(1) + "/" : text;
@@ -125,11 +125,11 @@ class Sink : public WebSink {
   const std::string path_;
   const std::function<void()> joined_;
   std::unique_ptr<Server> server_;
-  std::shared_ptr<Stage> stage_;
+  std::shared_ptr<Broadcast> broadcast_;
   std::shared_ptr<PeerConnections> peer_connections_;  // null: no WebRTC
   bool over_ = false;
   Values values_;
-  std::vector<LiveUnit> unread_;  // since the last intra plane; nobody wanted their values
+  std::vector<LiveUnit> unread_;  // since the last intra plane; not decoded
   PlaneWriter planes_;
   std::vector<media::AudioPacket> packets_;  // of the next segment
   std::uint32_t segments_ = 0;
@@ -138,7 +138,7 @@ class Sink : public WebSink {
 };
 
 Result<void> Sink::begin(const media::LiveInfo& info) {
-  if (stage_) return invalid("the sink has been started already");
+  if (broadcast_) return invalid("the sink has been started already");
   if (info.face_config.empty() && !info.audio) return invalid("there is neither face nor sound");
   if (info.timescale == 0) return invalid("the time scale is 0");
   info_ = info;
@@ -154,15 +154,15 @@ Result<void> Sink::begin(const media::LiveInfo& info) {
     server_ = std::move(*server);
   }
   Server& server = shared_server_ ? *shared_server_ : *server_;
-  stage_ = server.make_stage(info_.audio ? info_.audio->sample_rate : 0, joined_);
+  broadcast_ = server.make_broadcast(info_.audio ? info_.audio->sample_rate : 0, joined_);
   const Hello hello{info_.visual_profile, info_.audio.has_value(), info_.timescale,
                     info_.face_config};
-  stage_->set_hello(Channel::face, {.bytes = write_hello(hello)});
+  broadcast_->set_hello(Channel::face, {.bytes = write_hello(hello)});
   const std::string names = values_hello(info_.timescale);
   for (const Channel channel : {Channel::faps, Channel::planes}) {
-    stage_->set_hello(channel, {.bytes = {names.begin(), names.end()}, .text = true});
+    broadcast_->set_hello(channel, {.bytes = {names.begin(), names.end()}, .text = true});
   }
-  if (!init.empty()) stage_->set_hello(Channel::audio, {.bytes = std::move(init)});
+  if (!init.empty()) broadcast_->set_hello(Channel::audio, {.bytes = std::move(init)});
   if (server_ && options_.make_peer_connections) {
     peer_connections_ = options_.make_peer_connections();
     Result<void> ready =
@@ -172,8 +172,8 @@ Result<void> Sink::begin(const media::LiveInfo& info) {
     server_->set_peer_connections(peer_connections_);
   }
   describe();
-  if (!server.open(path_, stage_)) {
-    stage_.reset();
+  if (!server.open(path_, broadcast_)) {
+    broadcast_.reset();
     return invalid("another presentation has this path");
   }
   if (server_) server_->serve();
@@ -201,7 +201,7 @@ void Sink::describe() {
   if (peer_connections_) json["webrtc"] = true;  // at /whep
   json["clients"] = stats().receivers;
   // Names of heads may be any text.
-  stage_->set_info(json.dump());
+  broadcast_->set_info(json.dump());
 }
 
 Result<void> Sink::send_face(const LiveUnit& unit) {
@@ -213,14 +213,14 @@ Result<void> Sink::send_face(const LiveUnit& unit) {
   }
   const double seconds = double(time) / info_.timescale;
   now_ = std::max(now_, seconds);
-  stage_->publish(Channel::face,
-                  {.bytes = write_unit({std::uint64_t(time), std::uint32_t(unit.duration),
-                                        std::uint8_t(unit.intra ? kIntra : 0), unit.bytes}),
-                   .entry = unit.intra,
-                   .time = seconds});
+  broadcast_->publish(Channel::face,
+                      {.bytes = write_unit({std::uint64_t(time), std::uint32_t(unit.duration),
+                                            std::uint8_t(unit.intra ? kIntra : 0), unit.bytes}),
+                       .entry = unit.intra,
+                       .time = seconds});
   send_values(unit);
   if (unit.intra) {
-    stage_->forget_before(Channel::audio, seconds - kSoundBefore);
+    broadcast_->forget_before(Channel::audio, seconds - kSoundBefore);
     describe();
   }
   ++face_units_;
@@ -231,13 +231,13 @@ Result<void> Sink::send_face(const LiveUnit& unit) {
 /// then gets, with the next plane, all since the last intra plane.
 void Sink::send_values(const LiveUnit& unit) {
   if (shared_server_ && unit.intra) unread_.clear();
-  const bool wanted = stage_->wanted(Channel::faps) || stage_->wanted(Channel::planes);
+  const bool wanted = broadcast_->wanted(Channel::faps) || broadcast_->wanted(Channel::planes);
   if (shared_server_ && !wanted) {
     if (unit.intra || !unread_.empty()) unread_.push_back(unit);
     values_ = Values();
     planes_ = PlaneWriter();
-    stage_->forget(Channel::faps);
-    stage_->forget(Channel::planes);
+    broadcast_->forget(Channel::faps);
+    broadcast_->forget(Channel::planes);
     return;
   }
   unread_.push_back(unit);
@@ -249,14 +249,15 @@ void Sink::send_values(const LiveUnit& unit) {
       const double seconds = double(time) / info_.timescale;
       text = write_values(
           {seconds, double(next.duration) / info_.timescale, next.intra, next.bytes.size()}, *face);
-      stage_->publish(Channel::faps, {.bytes = {text.begin(), text.end()},
-                                      .text = true,
-                                      .entry = next.intra,
-                                      .time = seconds});
+      broadcast_->publish(Channel::faps, {.bytes = {text.begin(), text.end()},
+                                          .text = true,
+                                          .entry = next.intra,
+                                          .time = seconds});
       const PlaneWriter::Plane plane{std::uint64_t(time), std::uint32_t(next.duration), next.intra,
                                      next.bytes.size()};
-      stage_->publish(Channel::planes,
-                      {.bytes = planes_.write(plane, *face), .entry = next.intra, .time = seconds});
+      broadcast_->publish(
+          Channel::planes,
+          {.bytes = planes_.write(plane, *face), .entry = next.intra, .time = seconds});
     }
     if (peer_connections_) peer_connections_->send(next, text);
   }
@@ -286,7 +287,7 @@ Result<void> Sink::publish_note(const std::string& json) {
   }
   const std::string text = note->dump();
   for (const Channel channel : {Channel::face, Channel::faps, Channel::planes}) {
-    stage_->publish(channel, {.bytes = {text.begin(), text.end()}, .text = true, .time = now_});
+    broadcast_->publish(channel, {.bytes = {text.begin(), text.end()}, .text = true, .time = now_});
   }
   if (peer_connections_) peer_connections_->tell(text);
   return {};
@@ -299,10 +300,11 @@ Result<void> Sink::flush() {
   const double seconds = double(packets_.front().time) / info_.audio->sample_rate;
   packets_.clear();
   if (!segment) return segment.error();
-  stage_->publish(Channel::audio, {.bytes = std::move(*segment), .entry = true, .time = seconds});
+  broadcast_->publish(Channel::audio,
+                      {.bytes = std::move(*segment), .entry = true, .time = seconds});
   now_ = std::max(now_, seconds);
   if (info_.face_config.empty()) {
-    stage_->forget_before(Channel::audio, seconds - kSoundAlone);
+    broadcast_->forget_before(Channel::audio, seconds - kSoundAlone);
     if (segments_ % 16 == 0) describe();
   }
   return {};
@@ -351,7 +353,7 @@ class SharedServer : public WebServer {
     address_.port = server_->port();
     options_.head_script.clear();  // the server has them
     options_.head_model.clear();
-    for (WebHead& head : options_.other_heads) head.model.clear();  // their names are told
+    for (WebHead& head : options_.other_heads) head.model.clear();  // pages get their names only
   }
   std::string address() const override { return address_.text(); }
   std::unique_ptr<WebSink> make_sink(const std::string& path,

@@ -15,7 +15,7 @@ using media::LiveEvent;
 using media::LiveTrack;
 using media::LiveUnit;
 
-// Planes that wait for the first sound, which tells its priming.
+// Planes that wait for the first sound packet, which has the priming.
 constexpr std::size_t kMostHeld = 64;
 constexpr std::int64_t kMostHeldBytes = 1 << 20;
 constexpr std::int64_t kLongestPriming = 4096;

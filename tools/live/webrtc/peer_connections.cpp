@@ -1,4 +1,4 @@
-// Viewers who come by WHEP: who they are, and a thread that lets them in and out.
+// Viewers that connect by WHEP, and the thread that adds and removes them.
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -24,7 +24,7 @@ constexpr std::chrono::milliseconds kLookEvery{100};
 constexpr std::chrono::seconds kToAnswer{4}, kToConnect{15};
 constexpr std::chrono::milliseconds kGoodbye{60};  // three times; ends of streams get lost, too
 
-/// Nobody guesses it, and who knows it may end the connection.
+/// A secret: whoever has it may end the connection.
 std::string make_id() {
   std::random_device device;
   std::string id;
@@ -163,7 +163,7 @@ void PeerHub::run() {
     const bool first = expected_ && !std::exchange(loaded_, true);
     if (offers.empty() && gone.empty() && !first) continue;
     lock.unlock();
-    if (first) (void)load();  // who comes is told of its errors
+    if (first) (void)load();  // new viewers get its errors
     gone.clear();             // waits for their threads
     for (Offer& offer : offers) let_in(std::move(offer));
     lock.lock();

@@ -1,9 +1,7 @@
 // Addresses of WebRTC, and the sink that waits for viewers.
 #include <algorithm>
 #include <charconv>
-#include <optional>
 #include <string_view>
-#include <utility>
 
 #include "tools/live/webrtc/detail/where.h"
 #include "tools/live/webrtc/webrtc.h"

@@ -31,7 +31,7 @@ bool connects(int handle, const sockaddr_un& address) {
   return ::connect(handle, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
 }
 
-// What somebody left there who has ended without a goodbye goes.
+// Removes the socket of a process that has ended.
 Result<void> make_room(const std::string& path, const sockaddr_un& address) {
   struct stat there {};
   if (::lstat(path.c_str(), &there) != 0) return {};

@@ -12,7 +12,7 @@
 
 namespace animeme::speech {
 
-/// For a face that has said nothing yet.
+/// For a face that has not spoken yet.
 fba::LiveOptions coding_of_face(const dam::Model& model, const TalkingFace& face,
                                 const fap::Rate& rate, int fap_quant, double intra_seconds);
 

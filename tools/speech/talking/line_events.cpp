@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string_view>
-#include <utility>
 
 #include "tools/formats/common/json.h"
 

@@ -1,7 +1,6 @@
 #include "tools/speech/talking/live_speaker.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "tools/speech/talking/face_coding_internal.h"

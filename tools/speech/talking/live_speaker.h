@@ -81,7 +81,7 @@ class LiveSpeaker : public media::LiveInput {
 
   /// Traces of the last 1000 lines that began.
   const std::deque<LineTrace>& traces() const;
-  /// Whether nothing is being said and no line is queued.
+  /// No line is spoken or queued.
   bool silent() const;
   /// One sentence for every line that could not be shown, since the last call.
   std::vector<std::string> take_warnings();

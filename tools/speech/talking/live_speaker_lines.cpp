@@ -15,10 +15,10 @@ constexpr double kLead = 0.5;        // seconds before its sound in which a piec
 constexpr float kAudible = 0.003F;   // of full scale
 constexpr double kSoundFade = 0.02;  // seconds, of sound that is cut off
 constexpr double kSettling = 0.2;    // seconds from there on until all is at rest
-// Index of the first sample for which `heard` holds, the size if there is none.
-template <class Heard>
-std::int64_t first_sample(const std::vector<float>& samples, Heard heard) {
-  return std::find_if(samples.begin(), samples.end(), heard) - samples.begin();
+// Index of the first sample for which `audible` holds, the size if there is none.
+template <class Audible>
+std::int64_t first_sample(const std::vector<float>& samples, Audible audible) {
+  return std::find_if(samples.begin(), samples.end(), audible) - samples.begin();
 }
 
 }  // namespace

@@ -8,9 +8,8 @@
 #include "dam/maths/raised_cosine.h"
 #include "dam/signal/fap_signal.h"
 #include "tools/speech/talking/face_coding_internal.h"
-#include "tools/speech/talking/heard_face.h"
 #include "tools/speech/talking/live_sound.h"
-#include "tools/speech/talking/sound_pipe.h"
+#include "tools/speech/talking/voice_driven_face.h"
 
 namespace animeme::speech {
 
@@ -38,7 +37,7 @@ struct LiveVoice::Impl {
   LiveVoiceOptions options;
   std::unique_ptr<SoundFeed> pipe;
   int rate;
-  std::unique_ptr<HeardFace> face;
+  std::unique_ptr<VoiceDrivenFace> face;
   std::optional<LiveSound> sound;
   fba::LiveEncoder encoder;
   media::LiveInfo info;
@@ -146,8 +145,9 @@ Result<std::unique_ptr<LiveVoice>> LiveVoice::open(const dam::Model& model,
   if (auto ok = check(options); !ok) return ok.error();
   Result<TalkingFace> resting = TalkingFace::open(model, {options.synthesis, false, 1});
   if (!resting) return resting.error();
-  HeardFaceOptions following{options.synthesis, options.language, options.delay - kJitter - kGrain};
-  auto face = HeardFace::open(model, rate, following);
+  VoiceDrivenFaceOptions following{options.synthesis, options.language,
+                                   options.delay - kJitter - kGrain};
+  auto face = VoiceDrivenFace::open(model, rate, following);
   if (!face) return face.error();
   std::optional<LiveSound> sound;
   if (options.audio) {

@@ -43,9 +43,9 @@ struct LiveVoiceOptions {
 class LiveVoice : public media::LiveInput {
  public:
   /// Waits for the header of the sound, which has its rate. `descriptor` is borrowed; the model
-  /// must outlive the voice. Errors: those of SoundBytes, HeardFace::open(), TalkingFace::open(),
-  /// fba::LiveEncoder and media::AudioEncoder::open(); truncated (no sound), invalid_argument
-  /// (options out of range).
+  /// must outlive the voice. Errors: those of SoundBytes, VoiceDrivenFace::open(),
+  /// TalkingFace::open(), fba::LiveEncoder and media::AudioEncoder::open(); truncated (no sound),
+  /// invalid_argument (options out of range).
   static Result<std::unique_ptr<LiveVoice>> open(const dam::Model& model, int descriptor,
                                                  const LiveVoiceOptions& options);
   /// The same with samples of `rate` from any feed.

@@ -4,7 +4,6 @@
 #include <bit>
 #include <cctype>
 #include <cstring>
-#include <optional>
 #include <utility>
 
 #include "tools/formats/common/json.h"
@@ -51,7 +50,7 @@ Result<std::string> take_text(Json& piece, std::initializer_list<std::string_vie
 
 enum class Encoding : std::uint8_t { file, s16, f32 };
 
-// Samples where a rate is told; else a file, which knows its rate.
+// Samples if a rate is given, else a sound file.
 Encoding encoding_of(const std::string& name, bool with_rate) {
   const std::string wanted = plain(name);
   for (const std::string_view known : {"s16le", "pcms16le", "linear16", "pcm16", "pcm"}) {
@@ -185,7 +184,7 @@ Result<SpokenLine> read_piece(std::string_view json, const voice::VoiceOptions& 
   Result<TimedSpeech> timed = time_sound(std::move(sound), reading, log);
   if (!timed) {
     Error error = timed.error();
-    error.where = {};  // in a part of the line that nobody sees as a file
+    error.where = {};  // positions are inside a part of the line
     return error;
   }
   line.speech = std::move(timed->speech);

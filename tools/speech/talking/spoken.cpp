@@ -8,9 +8,6 @@
 #include "tools/formats/files/file_cache.h"
 #include "tools/formats/files/files.h"
 #include "tools/formats/scripts/script_text.h"
-#include "tools/speech/talking/voice_file.h"
-#include "tools/speech/voice/align.h"
-#include "tools/speech/voice/voice.h"
 
 namespace animeme::speech {
 
@@ -76,7 +73,7 @@ Result<Spoken> hear_voice(const SpokenOptions& options, const tools::Log& log) {
   voice::ListenOptions settings;
   settings.language = options.language;
   settings.progress = options.heard;
-  Result<voice::Heard> heard = listen_to_file(options.audio, settings, log);
+  Result<voice::Recognition> heard = listen_to_file(options.audio, settings, log);
   if (!heard) return heard.error();
   Result<media::Pcm> audio = read_voice(options.audio, log);
   if (!audio) return audio.error();
@@ -101,12 +98,13 @@ Result<voice::Alignment> align_file(const std::string& audio, const std::string&
   return alignment;
 }
 
-Result<voice::Heard> listen_to_file(const std::string& audio, const voice::ListenOptions& options,
-                                    const tools::Log& log) {
+Result<voice::Recognition> listen_to_file(const std::string& audio,
+                                          const voice::ListenOptions& options,
+                                          const tools::Log& log) {
   const tools::AtStep step(tools::Step::alignment);
   Result<media::Pcm> pcm = read_voice(audio, log, voice::kAlignRate);
   if (!pcm) return pcm.error();
-  Result<voice::Heard> heard = voice::listen(*pcm, options);
+  Result<voice::Recognition> heard = voice::listen(*pcm, options);
   if (!heard) return heard.error().in_file(audio);
   for (const std::string& text : heard->warnings) log.warn(audio + ": " + text);
   return heard;

@@ -52,7 +52,7 @@ struct Spoken {
   TimesFrom times = TimesFrom::voice;         ///< source of the timings
   std::optional<voice::Alignment> alignment;  ///< if aligned; without its script
   /// If only the sound was given; `script` is its best hypothesis.
-  std::optional<voice::Heard> heard;
+  std::optional<voice::Recognition> heard;
   std::vector<voice::SpokenLanguage> languages;  ///< of synthetic speech by espeak-ng
   std::vector<voice::SpeechMark> marks;          ///< of SSML
   std::vector<std::string> warnings;             ///< about skipped or spelled words
@@ -76,8 +76,9 @@ Result<voice::Alignment> align_file(const std::string& audio, const std::string&
 
 /// Recognises the phones of a recording. Warnings go to log.warn. Errors: those of read_voice() and
 /// voice::listen().
-Result<voice::Heard> listen_to_file(const std::string& audio, const voice::ListenOptions& options,
-                                    const tools::Log& log = {});
+Result<voice::Recognition> listen_to_file(const std::string& audio,
+                                          const voice::ListenOptions& options,
+                                          const tools::Log& log = {});
 
 /// The motion of the script, or the mean over all hypotheses of recognised speech. Errors: those of
 /// dam::synthesise() and dam::synthesise_readings().

@@ -89,7 +89,7 @@ bool carries_text(const std::string& path) {
 std::vector<media::TextTrack> carried_texts(const dam::Script& script, std::string_view language) {
   std::vector<media::TextTrack> tracks;
   for (const dam::TextGridTier& tier : dam::textgrid_of(script).tiers) {
-    // Phones are no language, so that nobody who looks for his own gets them.
+    // "zxx" keeps players from choosing the phones by language.
     media::TextTrack track{
         tier.name, tier.name == "words" ? text::language_code(language) : "zxx", {}};
     for (const dam::TextGridItem& item : tier.items) {
@@ -104,7 +104,7 @@ std::vector<media::TextTrack> carried_tracks(const std::string& path, const tool
   if (!carries_text(path)) return {};
   Result<std::vector<media::TextTrack>> tracks = media::read_text_tracks(path);
   if (!tracks) {
-    // What else is wrong with the file tells whoever reads it for its face.
+    // Other errors of the file are reported when its face is read.
     if (tracks.error().code == Code::out_of_range) log.warn(tracks.error().describe());
     return {};
   }

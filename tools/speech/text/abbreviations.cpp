@@ -4,7 +4,7 @@
 #include <span>
 
 #include "tools/speech/text/context_internal.h"
-#include "tools/speech/text/said.h"
+#include "tools/speech/text/spoken_text.h"
 #include "tools/speech/text/unicode.h"
 
 namespace animeme::text {

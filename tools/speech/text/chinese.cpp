@@ -113,7 +113,7 @@ std::string with_tone(char32_t written, const std::string& base, const Dictionar
   return best == nullptr ? std::string() : best->syllables;
 }
 
-bool ends_in_word(const Said& said) {
+bool ends_in_word(const SpokenText& said) {
   return !said.text.empty() && is_letter_or_digit(said.text.back());
 }
 
@@ -237,8 +237,8 @@ std::vector<ChineseWord> chinese_words(std::u32string_view text, const std::stri
   return words;
 }
 
-Said read_chinese(const Said& said, std::u32string& unread, const std::string& folder) {
-  Said out;
+SpokenText read_chinese(const SpokenText& said, std::u32string& unread, const std::string& folder) {
+  SpokenText out;
   for (const ChineseWord& word : chinese_words(said.text, folder)) {
     const Place place = said.place(word.first, word.last);
     if (!is_han(said.text[word.first])) {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/speech/text/said.h"
+#include "tools/speech/text/spoken_text.h"
 
 namespace animeme::text {
 
@@ -33,11 +33,11 @@ bool has_chinese_words(const std::string& folder = kRimeFolder);
 
 /// Converts words to pinyin separated by blanks, and numbers to Chinese words; everything else is
 /// unchanged. Characters without a reading are removed and added to `unread`.
-Said read_chinese(const Said& said, std::u32string& unread,
-                  const std::string& folder = kRimeFolder);
+SpokenText read_chinese(const SpokenText& said, std::u32string& unread,
+                        const std::string& folder = kRimeFolder);
 
 /// Digits of a Chinese or Japanese text as Chinese characters: 2024年 (in Chinese) 二〇二四年, 15%
 /// 百分之十五, 3:45 三点四十五分, long numbers digit by digit.
-Said spell_han_numbers(const Said& said, bool japanese);
+SpokenText spell_han_numbers(const SpokenText& said, bool japanese);
 
 }  // namespace animeme::text

@@ -2,7 +2,7 @@
 
 #include "dam/script/script_text_internal.h"
 #include "tools/speech/text/context_internal.h"
-#include "tools/speech/text/said.h"
+#include "tools/speech/text/spoken_text.h"
 #include "tools/speech/text/unicode.h"
 
 namespace animeme::text {

@@ -4,7 +4,7 @@
 #include <cld2/public/encodings.h>
 
 #include "tools/speech/text/guess.h"
-#include "tools/speech/text/said.h"
+#include "tools/speech/text/spoken_text.h"
 #include "tools/speech/text/unicode.h"
 
 namespace animeme::text {

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 
 #include "tools/speech/text/chinese.h"
 #include "tools/speech/text/unicode.h"
@@ -83,10 +82,10 @@ std::u32string read_whole(const Number& number, char32_t next, bool japanese) {
 
 }  // namespace
 
-Said spell_han_numbers(const Said& said, bool japanese) {
+SpokenText spell_han_numbers(const SpokenText& said, bool japanese) {
   const std::u32string& text = said.text;
   const auto at = [&](std::size_t i) { return i < text.size() ? text[i] : U' '; };
-  Said out;
+  SpokenText out;
   for (std::size_t i = 0; i < text.size();) {
     if (digit_value(text[i]) < 0) {
       out.add(said, i, i + 1);

@@ -34,18 +34,19 @@ std::u32string with_long_vowels(std::u32string kana) {
 
 }  // namespace
 
-Result<Said> read_japanese(const Said& said, std::u32string& unread, const std::string& folder) {
-  const Said spelled = spell_han_numbers(said, true);
+Result<SpokenText> read_japanese(const SpokenText& said, std::u32string& unread,
+                                 const std::string& folder) {
+  const SpokenText spelled = spell_han_numbers(said, true);
   auto words = japanese_words(spelled.text, folder);
   if (!words) {
     const bool kana = std::none_of(spelled.text.begin(), spelled.text.end(),
                                    [](char32_t c) { return script_of(c) == "Hani"; });
     if (!kana) return words.error();
-    Said out = spelled;
+    SpokenText out = spelled;
     out.text = with_long_vowels(out.text);
     return out;
   }
-  Said out;
+  SpokenText out;
   std::size_t at = 0;
   for (const JapaneseWord& word : *words) {
     out.add(spelled, at, word.first);

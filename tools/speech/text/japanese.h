@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "fap/result.h"
-#include "tools/speech/text/said.h"
+#include "tools/speech/text/spoken_text.h"
 
 namespace animeme::text {
 
@@ -33,7 +33,7 @@ Result<std::vector<JapaneseWord>> japanese_words(std::u32string_view text,
 /// Converts words to kana and numbers to Japanese words; everything else is unchanged. Long vowels
 /// are doubled, as espeak-ng 1.51 ignores the length mark. Characters without a reading are removed
 /// and added to `unread`. Errors: those of japanese_words(), unless the text is all kana.
-Result<Said> read_japanese(const Said& said, std::u32string& unread,
-                           const std::string& folder = kJapaneseFolder);
+Result<SpokenText> read_japanese(const SpokenText& said, std::u32string& unread,
+                                 const std::string& folder = kJapaneseFolder);
 
 }  // namespace animeme::text

@@ -14,7 +14,7 @@ constexpr std::size_t kNobody = std::size_t(-1);
 constexpr std::size_t kShown = 30;  // characters of a text that is refused
 
 // Of letters and what belongs to them; empty for what has no script.
-std::string script_at(const Said& said, std::size_t at) {
+std::string script_at(const SpokenText& said, std::size_t at) {
   const Kind kind = kind_of(said.text[at]);
   if (kind != Kind::letter && kind != Kind::mark) return {};
   std::string script = script_of(said.text[at]);
@@ -24,7 +24,7 @@ std::string script_at(const Said& said, std::size_t at) {
 
 class Parting {
  public:
-  Parting(const Said& said, Speakers& speakers) : said_(said), speakers_(speakers) {}
+  Parting(const SpokenText& said, Speakers& speakers) : said_(said), speakers_(speakers) {}
 
   Result<std::vector<Passage>> part() {
     owner_.assign(said_.size(), kNobody);
@@ -181,7 +181,7 @@ class Parting {
            (kind_of(a) == Kind::digit && is_letter(b));
   }
 
-  const Said& said_;
+  const SpokenText& said_;
   Speakers& speakers_;
   std::vector<std::size_t> owner_;
   std::vector<std::string> guessed_;  // of each character; empty: not sure, or not asked
@@ -189,7 +189,7 @@ class Parting {
 
 }  // namespace
 
-Result<std::vector<Passage>> part_passages(const Said& said, Speakers& speakers) {
+Result<std::vector<Passage>> part_passages(const SpokenText& said, Speakers& speakers) {
   if (said.size() == 0) return std::vector<Passage>();
   return Parting(said, speakers).part();
 }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "fap/result.h"
-#include "tools/speech/text/said.h"
+#include "tools/speech/text/spoken_text.h"
 
 namespace animeme::text {
 
@@ -45,7 +45,7 @@ struct Speakers {
 /// A part of a text, spoken by one voice.
 struct Passage {
   /// text with positions
-  Said said;
+  SpokenText said;
   std::size_t speaker = 0;  ///< in Speakers::list
 };
 
@@ -62,7 +62,7 @@ struct Passage {
 ///
 /// Errors: invalid_argument (no voice reads a script; the message has text, script, and a suitable
 /// voice).
-Result<std::vector<Passage>> part_passages(const Said& said, Speakers& speakers);
+Result<std::vector<Passage>> part_passages(const SpokenText& said, Speakers& speakers);
 
 /// The language of a tag without country and variant, in lower case: "en" for "en-US+f3".
 std::string main_language(std::string_view tag);

@@ -8,8 +8,8 @@
 #include "tools/speech/text/abbreviations_internal.h"
 #include "tools/speech/text/context_internal.h"
 #include "tools/speech/text/roman_internal.h"
-#include "tools/speech/text/said.h"
 #include "tools/speech/text/spoken_numbers_internal.h"
+#include "tools/speech/text/spoken_text.h"
 #include "tools/speech/text/token_readings_internal.h"
 #include "tools/speech/text/unicode.h"
 #include "tools/speech/text/written.h"
@@ -211,7 +211,7 @@ class Tokens {
   const std::string& language_;
   SpokenNumbers numbers_;
   char point_;
-  Said said_;
+  SpokenText said_;
   std::vector<bool> joined_;
   std::size_t said_at_ = 0;
   std::map<std::pair<std::string, std::string>, Token> known_;

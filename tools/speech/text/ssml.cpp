@@ -8,7 +8,7 @@
 #include <set>
 
 #include "dam/script/script_text_internal.h"
-#include "tools/speech/text/said.h"
+#include "tools/speech/text/spoken_text.h"
 #include "tools/speech/text/ssml_values.h"
 
 namespace animeme::text {
@@ -202,7 +202,7 @@ class SsmlReader {
 
 SsmlReader& reader_of(void* user) { return *static_cast<SsmlReader*>(user); }
 
-// Names may have a prefix of the namespace of SSML, "ssml:break"; that of others stays.
+// Removes the prefix of the SSML namespace ("ssml:break"); other prefixes stay.
 std::string_view local_name(std::string_view name) {
   return name.starts_with("ssml:") ? name.substr(5) : name;
 }

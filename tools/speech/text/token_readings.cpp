@@ -10,7 +10,7 @@
 #include "tools/speech/text/context_internal.h"
 #include "tools/speech/text/fractions_internal.h"
 #include "tools/speech/text/roman_internal.h"
-#include "tools/speech/text/said.h"
+#include "tools/speech/text/spoken_text.h"
 #include "tools/speech/text/unicode.h"
 #include "tools/speech/text/units_internal.h"
 

@@ -2,25 +2,95 @@
 
 #include <algorithm>
 
-#include "dam/script/script_text_internal.h"
 #include "tools/speech/text/chinese.h"
 #include "tools/speech/text/japanese.h"
 #include "tools/speech/text/late_internal.h"
-#include "tools/speech/text/say_as_internal.h"
 #include "tools/speech/text/ssml.h"
 #include "tools/speech/text/unicode.h"
 #include "tools/speech/text/written.h"
 
 namespace animeme::text {
+
 namespace {
+
+std::string digits_of(const SpokenText& said) {
+  std::string digits;
+  for (const char32_t c : said.text) {
+    if (digit_value(c) >= 0) digits += char('0' + digit_value(c));
+  }
+  return digits;
+}
+
+// Letters and digits one by one.
+SpokenText say_apart(const SpokenText& said) {
+  SpokenText out;
+  for (std::size_t i = 0; i < said.size(); ++i) {
+    if (!is_letter_or_digit(said.text[i])) continue;
+    if (out.size() > 0) out.add(U" ", said.places[i]);
+    out.add(said, i, i + 1);
+  }
+  return out;
+}
+
+// Digits one by one, with a pause where something else is between.
+SpokenText say_telephone(const SpokenText& said) {
+  SpokenText out;
+  bool gap = false;
+  for (std::size_t i = 0; i < said.size(); ++i) {
+    if (digit_value(said.text[i]) < 0) {
+      gap = true;
+      continue;
+    }
+    if (out.size() > 0) out.add(gap ? U", " : U" ", said.places[i]);
+    out.add(said, i, i + 1);
+    gap = false;
+  }
+  return out;
+}
+
+// Other words (UTF-8) that stand for all of it; as it is if there are none.
+SpokenText say_instead(const SpokenText& said, const std::string& words) {
+  if (words.empty() || said.size() == 0) return said;
+  SpokenText out;
+  out.add(code_points(words), said.place(0, said.size()));
+  return out;
+}
+
+// The digits of it as "5th"; as it is if there are none, or the language has no such words.
+SpokenText say_ordinal(const SpokenText& said, const std::string& language) {
+  return say_instead(said, spell_number(digits_of(said), language, NumberForm::ordinal_digits));
+}
+
+// By the order of its format: `say-as interpret-as="date" format="dmy"`; as it is if it is no
+// date.
+SpokenText say_date(const SpokenText& said, const std::string& format,
+                    const std::string& language) {
+  std::vector<int> values;
+  bool inside = false;
+  for (const char32_t c : said.text) {
+    const int digit = digit_value(c);
+    if (digit >= 0 && !inside) values.push_back(0);
+    if (digit >= 0 && values.back() < 100000) values.back() = values.back() * 10 + digit;
+    inside = digit >= 0;
+  }
+  std::string order = format;
+  std::erase_if(order, [](char c) { return c != 'd' && c != 'm' && c != 'y'; });
+  order.erase(std::unique(order.begin(), order.end()), order.end());
+  if (order.size() != 3 || values.size() != 3) return said;
+  const auto part = [&](char name) { return values[std::min(order.find(name), std::size_t(2))]; };
+  int year = part('y');
+  if (year < 100) year += year < 70 ? 2000 : 1900;
+  if (!is_date(year, part('m'), part('d'))) return said;
+  return say_instead(said, spell_date(year, part('m'), part('d'), language));
+}
 
 constexpr std::string_view kNoWords =
     "Chinese is read character by character, which is wrong for words as 银行; install the Debian "
     "packages rime-data-pinyin-simp and rime-data-terra-pinyin";
 
 // ＡＢＣ１２３ as ABC123, blanks as blanks.
-Said narrow(const Said& said) {
-  Said out = said;
+SpokenText narrow(const SpokenText& said) {
+  SpokenText out = said;
   for (char32_t& c : out.text) {
     if (c >= 0xFF01 && c <= 0xFF5E) c -= 0xFEE0;
     if (c == 0x3000) c = U' ';
@@ -28,14 +98,16 @@ Said narrow(const Said& said) {
   return out;
 }
 
-void replace_brackets(Said& said) { std::replace(said.text.begin(), said.text.end(), U'[', U' '); }
+void replace_brackets(SpokenText& said) {
+  std::replace(said.text.begin(), said.text.end(), U'[', U' ');
+}
 
 class Maker {
  public:
   Maker(Utterance& out, Speakers& speakers, const Helpers& helpers)
       : out_(out), speakers_(speakers), helpers_(helpers) {}
 
-  Result<void> plain(const Said& said, bool keep_emoji) {
+  Result<void> plain(const SpokenText& said, bool keep_emoji) {
     auto passages = part_passages(narrow(said), speakers_);
     if (!passages) return passages.error();
     keep_emoji_ = keep_emoji;
@@ -60,7 +132,7 @@ class Maker {
         out_.marks.push_back(item.name);
       }
       if (item.kind != ItemKind::text) continue;
-      Said said = as_written(item.text, at);
+      SpokenText said = as_written(item.text, at);
       at += item.text.size();
       if (!item.alias.empty() && said.size() > 0) said = say_instead(said, utf8(item.alias));
       if (auto done = add_text(item, said); !done) return done;
@@ -79,7 +151,7 @@ class Maker {
     manner_ = {};
   }
 
-  // A pause before anything is said would be part of the silence before speech.
+  // A pause before the first word would be part of the initial silence.
   void add_pause(double seconds) {
     tag("<break time=\"" + std::to_string(int(seconds * 1000)) + "ms\"/>");
   }
@@ -112,7 +184,7 @@ class Maker {
 
   const Speaker& out_speaker(std::size_t speaker) const { return speakers_.list[speaker]; }
 
-  void emit(const Said& said, std::size_t speaker, const Manner& manner) {
+  void emit(const SpokenText& said, std::size_t speaker, const Manner& manner) {
     if (out_.markup) begin(speaker, manner);
     const std::size_t first = out_.input.size();
     for (std::size_t i = 0; i < said.size(); ++i) {
@@ -127,7 +199,7 @@ class Maker {
     if (said.size() > 0) out_.stretches.push_back({first, out_.input.size(), speaker});
   }
 
-  Result<void> add_text(const Item& item, const Said& said) {
+  Result<void> add_text(const Item& item, const SpokenText& said) {
     const auto main = speaker_of(item.manner);
     if (!main) return main.error();
     // The voice of the item first, the others by their scripts.
@@ -196,7 +268,7 @@ class Maker {
       return {};
     }
     out_.mnemonics = true;
-    Said said;
+    SpokenText said;
     if (passage.said.size() > 0) {
       said.add(U" [[" + code_points(names) + U"]] ", passage.said.place(0, passage.said.size()));
     }
@@ -225,13 +297,13 @@ class Maker {
     return speakers_.list.size() - 1;
   }
 
-  Result<Said> read_passage(const Passage& passage) {
+  Result<SpokenText> read_passage(const Passage& passage) {
     const Speaker& speaker = speakers_.list[passage.speaker];
     const bool han = speaker.letters != Letters::as_written || speaker.language == "yue";
-    const Said written =
+    const SpokenText written =
         read_written(passage.said, {speaker.language, keep_emoji_, !han && !speaker.says_digits});
     std::u32string unread;
-    Said said = written;
+    SpokenText said = written;
     if (speaker.letters == Letters::pinyin) {
       if (!has_chinese_words() && !warned_) out_.warnings.emplace_back(kNoWords);
       warned_ = warned_ || !has_chinese_words();

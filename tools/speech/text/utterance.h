@@ -10,7 +10,7 @@
 
 #include "fap/result.h"
 #include "tools/speech/text/passages.h"
-#include "tools/speech/text/said.h"
+#include "tools/speech/text/spoken_text.h"
 
 namespace animeme::text {
 
@@ -24,7 +24,7 @@ struct Stretch {
 /// The input for espeak-ng.
 struct Utterance {
   std::u32string source;   ///< the text as written; for SSML without markup
-  Said input;              ///< for espeak-ng; markup has empty positions
+  SpokenText input;        ///< for espeak-ng; markup has empty positions
   bool markup = false;     ///< the input is SSML for espeak-ng
   bool mnemonics = false;  ///< [[ ]] in the input are phonemes
   /// the voices

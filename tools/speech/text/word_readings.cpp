@@ -3,7 +3,7 @@
 #include "dam/script/script_text_internal.h"
 #include "tools/speech/text/chinese.h"
 #include "tools/speech/text/japanese.h"
-#include "tools/speech/text/said.h"
+#include "tools/speech/text/spoken_text.h"
 #include "tools/speech/text/unicode.h"
 #include "tools/speech/text/written.h"
 
@@ -33,9 +33,9 @@ Result<std::vector<WordReading>> word_readings(std::string_view text, std::strin
     return std::vector<WordReading>{{std::string(text), std::string(text)}};
   const std::u32string source = code_points(text);
   const bool japanese = is_japanese(language);
-  const Said written = read_written(as_written(source), {japanese ? "ja" : "zh"});
+  const SpokenText written = read_written(as_written(source), {japanese ? "ja" : "zh"});
   std::u32string unread;
-  Said said;
+  SpokenText said;
   if (japanese) {
     auto kana = read_japanese(written, unread);
     if (!kana) return kana.error();

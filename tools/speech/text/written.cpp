@@ -34,13 +34,13 @@ constexpr std::u32string_view kSaidSymbols = U"€£¥￥₽₹₩₺₴₪¢°�
 
 class WrittenReader {
  public:
-  WrittenReader(const Said& said, const Writing& writing)
+  WrittenReader(const SpokenText& said, const Writing& writing)
       : in_(said),
         writing_(writing),
         base_(language_base(writing.language)),
         amounts_(in_.text, writing.language, writing.spell_digits) {}
 
-  Said read() {
+  SpokenText read() {
     while (at_ < in_.size()) step();
     while (!out_.text.empty() && is_blank(out_.text.back()) && !is_blank(in_.text.back())) drop();
     return std::move(out_);
@@ -183,11 +183,11 @@ class WrittenReader {
     return true;
   }
 
-  const Said& in_;
+  const SpokenText& in_;
   const Writing& writing_;
   std::string base_;
   AmountReader amounts_;
-  Said out_;
+  SpokenText out_;
   std::size_t at_ = 0;
 };
 
@@ -215,7 +215,7 @@ bool is_unit(std::u32string_view text, std::size_t first, std::size_t last) {
   return after && (!unit_of(sign).empty() || lower == "am" || lower == "pm");
 }
 
-Said read_written(const Said& said, const Writing& writing) {
+SpokenText read_written(const SpokenText& said, const Writing& writing) {
   if (!unicode_here() || said.size() == 0) return said;
   return WrittenReader(said, writing).read();
 }

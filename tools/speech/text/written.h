@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "tools/speech/text/said.h"
+#include "tools/speech/text/spoken_text.h"
 
 namespace animeme::text {
 
@@ -28,7 +28,7 @@ struct Writing {
 /// are emoji.
 ///
 /// Everything else is unchanged; without ICU, all of the text is.
-Said read_written(const Said& said, const Writing& writing);
+SpokenText read_written(const SpokenText& said, const Writing& writing);
 
 /// Whether there is a letter or digit to speak: "!!! 😀" has none.
 bool has_words(std::u32string_view text);

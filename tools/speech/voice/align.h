@@ -48,7 +48,7 @@ struct AlignedWord {
 };
 
 /// Speech that is missing in the transcript.
-struct PutIn {
+struct Insertion {
   double start = 0;                 ///< seconds
   double end = 0;                   ///< seconds
   std::vector<std::string> phones;  ///< recognised ARPAbet phones, often individually wrong
@@ -67,7 +67,7 @@ struct Alignment {
   /// the recording in proportion to their usual durations.
   bool approximate = false;
   std::vector<AlignedWord> words;     ///< all of the transcript, in order
-  std::vector<PutIn> put_in;          ///< in order
+  std::vector<Insertion> inserted;    ///< in order
   double confidence = 0;              ///< of the whole recording, as AlignedWord::confidence
   std::vector<std::string> warnings;  ///< sentences for the user; may be empty
 };

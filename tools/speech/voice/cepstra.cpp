@@ -6,7 +6,6 @@
 #include <sphinxbase/ngram_model.h>
 
 #include <array>
-#include <cmath>
 #include <filesystem>
 
 #include "tools/speech/voice/sphinx.h"

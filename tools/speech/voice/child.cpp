@@ -92,17 +92,26 @@ struct CopyEnd {
   double cpu_seconds = 0;
 };
 
-// A request: its size, with the end of a pipe for the answers, and its bytes.
-bool send_request(int socket, std::string_view request, int descriptor) {
-  const std::uint64_t size = request.size();
-  iovec part{const_cast<std::uint64_t*>(&size), sizeof size};
-  alignas(cmsghdr) char control[CMSG_SPACE(sizeof descriptor)] = {};
+// A message of the size of a request and one descriptor: the end of a pipe for the answers.
+struct RequestHead {
+  std::uint64_t size = 0;
+  iovec part{&size, sizeof size};
+  alignas(cmsghdr) char control[CMSG_SPACE(sizeof(int))] = {};
   msghdr message{};
-  message.msg_iov = &part;
-  message.msg_iovlen = 1;
-  message.msg_control = control;
-  message.msg_controllen = sizeof control;
-  cmsghdr* head = CMSG_FIRSTHDR(&message);
+
+  explicit RequestHead(std::uint64_t bytes) : size(bytes) {
+    message.msg_iov = &part;
+    message.msg_iovlen = 1;
+    message.msg_control = control;
+    message.msg_controllen = sizeof control;
+  }
+  RequestHead(const RequestHead&) = delete;  // points into itself
+};
+
+// The head, then the bytes.
+bool send_request(int socket, std::string_view request, int descriptor) {
+  RequestHead sent(request.size());
+  cmsghdr* head = CMSG_FIRSTHDR(&sent.message);
   head->cmsg_level = SOL_SOCKET;
   head->cmsg_type = SCM_RIGHTS;
   head->cmsg_len = CMSG_LEN(sizeof descriptor);
@@ -110,27 +119,21 @@ bool send_request(int socket, std::string_view request, int descriptor) {
   const auto send = [](int to, const char* data, std::size_t count) {
     return ::send(to, data, count, MSG_NOSIGNAL);
   };
-  return ::sendmsg(socket, &message, MSG_NOSIGNAL) == ssize_t(sizeof size) &&
+  return ::sendmsg(socket, &sent.message, MSG_NOSIGNAL) == ssize_t(sizeof sent.size) &&
          transfer(send, socket, request.data(), request.size());
 }
 
 bool receive_request(int socket, std::string& request, int& descriptor) {
-  std::uint64_t size = 0;
-  iovec part{&size, sizeof size};
-  alignas(cmsghdr) char control[CMSG_SPACE(sizeof descriptor)] = {};
-  msghdr message{};
-  message.msg_iov = &part;
-  message.msg_iovlen = 1;
-  message.msg_control = control;
-  message.msg_controllen = sizeof control;
+  RequestHead received(0);
   ssize_t got = -1;
   do {
-    got = ::recvmsg(socket, &message, MSG_CMSG_CLOEXEC | MSG_WAITALL);
+    got = ::recvmsg(socket, &received.message, MSG_CMSG_CLOEXEC | MSG_WAITALL);
   } while (got < 0 && errno == EINTR);
-  const cmsghdr* head = got == ssize_t(sizeof size) ? CMSG_FIRSTHDR(&message) : nullptr;
+  const bool whole = got == ssize_t(sizeof received.size);
+  const cmsghdr* head = whole ? CMSG_FIRSTHDR(&received.message) : nullptr;
   if (head == nullptr || head->cmsg_type != SCM_RIGHTS) return false;
   std::memcpy(&descriptor, CMSG_DATA(head), sizeof descriptor);
-  request.resize(size);
+  request.resize(received.size);
   return transfer(::read, socket, request.data(), request.size());
 }
 
@@ -138,7 +141,7 @@ double seconds_of(const timeval& time) { return double(time.tv_sec) + 1e-6 * dou
 
 // In a new child, which keeps nothing of its parent but a socket.
 void isolate(int socket) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // it would keep open what tells that its parent has gone
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // it holds the pipe that shows whether its parent is alive
   ::close_range(STDERR_FILENO + 1, unsigned(socket) - 1, 0);
   ::close_range(unsigned(socket) + 1, ~0U, 0);
   be_silent();
@@ -247,7 +250,7 @@ Result<std::unique_ptr<Nursery>> Nursery::start(
     unsigned seconds) {
   const auto forked = fork_with_socket("a process for voices", [&](int requests) {
     isolate(requests);
-    ::signal(SIGCHLD, SIG_IGN);  // nobody asks how a child ended
+    ::signal(SIGCHLD, SIG_IGN);  // exit codes of children are not read
     std::string name;
     for (int socket = -1; receive_request(requests, name, socket); ::close(socket)) {
       if (::fork() != 0) continue;

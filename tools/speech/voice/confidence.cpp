@@ -14,12 +14,12 @@ namespace {
 // and at 10 and 5 dB (`align_table --texts --every 12`, from 0 and 7), and to 48 recordings of
 // Spanish, French and Italian (`--lines --every 6`). Others are reported
 // (tools/speech/voice/measured.md). What more than `most_explained` tells is told by the score;
-// texts said by half stay below 1.
+// half-spoken texts stay below 1.
 struct Weights {
   double score, explained, most_explained, constant;
 };
 constexpr Weights kEnglishWeights{3.5, 6, 1, 5.4}, kOtherWeights{2.6, 58, 0.12, 3};
-constexpr double kLeastScore = -4.2;  // below, nothing is told any more
+constexpr double kLeastScore = -4.2;  // below, the score says nothing
 // A word that is not said counts as badly as one that does not fit at all; speech that the text
 // does not have less: it may be right as far as it goes.
 constexpr double kUnsaid = -5, kForeign = -1.5;

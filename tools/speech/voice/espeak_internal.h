@@ -19,7 +19,7 @@ struct EspeakFunctions {
   decltype(&::espeak_Synth) synth;
 };
 
-/// The addresses themselves: whoever uses this is linked with espeak-ng.
+/// The addresses of the functions. Callers link with espeak-ng.
 inline constexpr EspeakFunctions kLinkedEspeak = {
     &::espeak_Info,         &::espeak_Initialize,       &::espeak_ListVoices,
     &::espeak_SetParameter, &::espeak_SetSynthCallback, &::espeak_SetVoiceByName,

@@ -7,7 +7,7 @@
 ///
 /// A phone recogniser gets every second phone wrong, and a face that follows its best hypothesis
 /// shows that. So there are also `readings`: hypotheses sampled by their probability. The mean of
-/// their motions has the smallest error (tools/speech/talking/heard_face.h).
+/// their motions has the smallest error (tools/speech/talking/voice_driven_face.h).
 ///
 /// The sounds are those of the US English model of pocketsphinx (Debian packages
 /// libpocketsphinx-dev to build, pocketsphinx-en-us to run); other languages are recognised with
@@ -47,7 +47,7 @@ struct ListenOptions {
 };
 
 /// A recognised English word.
-struct HeardWord {
+struct RecognisedWord {
   std::string text;       ///< in lower case
   double start = 0;       ///< seconds
   double end = 0;         ///< seconds
@@ -55,12 +55,12 @@ struct HeardWord {
 };
 
 /// Result of listen(). All scripts cover the sound exactly; labels are ARPAbet.
-struct Heard {
+struct Recognition {
   dam::Script script;  ///< the consensus of the readings, with the words of `words`
   std::vector<double>
       confidences;        ///< of each phone of `script`: the share of readings that agree, 0..1
   double confidence = 0;  ///< their mean over time without silence; 0: no speech
-  std::vector<HeardWord> words;       ///< credible English words, in order
+  std::vector<RecognisedWord> words;  ///< credible English words, in order
   std::vector<dam::Script> readings;  ///< equally likely hypotheses
   std::vector<std::string> warnings;  ///< sentences for the user; may be empty
 };
@@ -75,6 +75,6 @@ inline constexpr double kMostListenSeconds = 4 * 3600.0;
 /// range), truncated (less than 0.1 s of audio), out_of_range (more than kMostListenSeconds),
 /// not_found (a model), syntax (a damaged one), unsupported (built without pocketsphinx; a model of
 /// another kind).
-Result<Heard> listen(const media::Pcm& audio, const ListenOptions& options = {});
+Result<Recognition> listen(const media::Pcm& audio, const ListenOptions& options = {});
 
 }  // namespace animeme::voice

@@ -13,7 +13,7 @@ namespace {
 // The cepstral mean follows the voice: what it is at first counts as so many frames, and what lies
 // behind fades within as many.
 constexpr double kFirstFrames = 100, kMostFrames = 1000;
-// A frame tells the voice if it lies in the upper part of the levels of the last seconds.
+// A frame is speech if its level is in the upper part of the last seconds.
 constexpr float kLoudPart = 0.35f;
 constexpr float kForgetLevel = 0.002f;  // a frame, of the distance of the levels
 // Before anything is heard: the mean of GRID and of espeak-ng's voices lies about there, and so
@@ -60,8 +60,8 @@ class Listener : public SoundListener {
 
   double heard() const override { return double(paths_.frames()) * 0.01; }
 
-  Heard hear(double from) const override {
-    Heard heard;
+  Recognition hear(double from) const override {
+    Recognition heard;
     const auto wanted = std::size_t(std::max(from, 0.0) * 100);
     const std::size_t first = std::max(wanted > 2 ? wanted - 2 : 0, paths_.first());
     const double length = this->heard() - from;

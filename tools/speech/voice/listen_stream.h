@@ -4,7 +4,8 @@
 ///     auto listener = voice::SoundListener::open(48000, {});
 ///     for (const auto& block : blocks_as_they_come) {
 ///       (*listener)->push(block);
-///       const voice::Heard tail = (*listener)->hear(from);      // from `from` seconds to the end
+///       const voice::Recognition tail = (*listener)->hear(from);      // from `from` seconds to
+///       the end
 ///     }
 ///
 /// Each result covers everything so far; what is more than 0.2 s old hardly changes. Memory and CPU
@@ -34,7 +35,7 @@ class SoundListener {
   virtual double heard() const = 0;
   /// Result from time `from` (seconds, not before the argument of forget()). The scripts begin at
   /// 0, which is `from`, and end at heard(); they are empty if there is nothing yet.
-  virtual Heard hear(double from) const = 0;
+  virtual Recognition hear(double from) const = 0;
   /// Discards results before `before` seconds.
   virtual void forget(double before) = 0;
 };

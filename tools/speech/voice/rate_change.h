@@ -16,7 +16,7 @@ class RateChange {
   /// 4000 to 384000 Hz. Errors: invalid_argument, unsupported (built without speexdsp).
   static Result<std::unique_ptr<RateChange>> open(int rate);
   virtual ~RateChange() = default;
-  /// Appends what can be told so far.
+  /// Appends the samples that are final.
   virtual void push(std::span<const float> samples, std::vector<float>& out) = 0;
 };
 

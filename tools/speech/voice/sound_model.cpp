@@ -6,7 +6,6 @@
 #include <cstring>
 #include <filesystem>
 #include <numbers>
-#include <optional>
 #include <string_view>
 
 #include "fap/detail/whole_file.h"

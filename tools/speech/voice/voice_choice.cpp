@@ -1,7 +1,6 @@
 #include "tools/speech/voice/voice_choice.h"
 
 #include <algorithm>
-#include <vector>
 
 #include "dam/script/script_text_internal.h"
 

@@ -57,7 +57,7 @@ std::string word_of(const VoiceEvent& event, const text::Utterance& utterance) {
   const text::Place place = place_of(event, utterance);
   const std::u32string& source = utterance.source;
   std::size_t first = place.first, last = place.last;
-  // Behind "z. B." a word is said to begin at the sign before it.
+  // After "z. B." espeak-ng reports the word one character early.
   const auto spoken = [&](std::size_t at) { return text::is_letter_or_digit(source[at]); };
   std::size_t next = first;
   while (next < source.size() && !spoken(next)) ++next;

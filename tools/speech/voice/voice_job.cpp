@@ -104,7 +104,7 @@ Result<text::Speakers> find_speakers(const VoiceOptions& options, std::u32string
   };
   for (const ChosenVoice& voice : chosen->voices) speakers.list.push_back(speaker_of(voice));
   if (!speakers.list.empty()) return speakers;
-  // Nobody is named: the first letters tell who is the main voice.
+  // No voice is named: the first letters decide which one is the main voice.
   for (const std::string& language : {text::first_language(text), text::locale_language()}) {
     auto found = language.empty() ? std::nullopt : speakers.find(language);
     if (found && speakers.list.empty()) speakers.list.push_back(*std::move(found));

@@ -140,7 +140,7 @@ std::string warn_of_letters(const RawSpeech& raw, const text::Utterance& utteran
   for (const SpokenLanguage& part : languages) {
     if (part.by_itself && is_foreign(part.text)) add(part.text);
   }
-  // A word that is said letter by letter comes as several words of one place; numbers do, too.
+  // Spelled words and numbers are several events with one position.
   const VoiceEvent* before = nullptr;
   for (const VoiceEvent& event : raw.events) {
     if (event.kind != EventKind::word) continue;

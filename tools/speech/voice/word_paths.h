@@ -24,7 +24,7 @@ struct WordModel {
   std::size_t complete = kNoVariant;  ///< those behind leave out a word of it
   float words = 1;        ///< that it is said with: to leave it out costs as much as them
   bool weak = false;      ///< often said with less than its sounds, as "with", "at"
-  bool left_out = false;  ///< it is known that nobody says it
+  bool left_out = false;  ///< known not to be spoken
 };
 
 /// What is paid, in logarithms of likelihoods (which are far too sure of themselves).
@@ -34,7 +34,7 @@ struct PathCosts {
   float skip_word = 10;     ///< each of them
   float foreign = 60;       ///< before sound that the text does not have, once
   float foreign_frame = 3;  ///< a frame of it
-  float unknown_frame = 2;  ///< a frame of a word that nobody knows how to say
+  float unknown_frame = 2;  ///< a frame of a word without a pronunciation
 };
 
 /// Silence, a sound of a word, a sound of none.

@@ -91,7 +91,7 @@ class Search : public WordSearch {
   Opened open_;
 };
 
-// One that is not used waits for the next who wants it: opening takes longer than a sentence.
+// Unused searches are kept: opening one takes longer than a sentence.
 std::mutex idle_mutex;
 std::optional<Opened>& idle() {
   static std::optional<Opened> one;

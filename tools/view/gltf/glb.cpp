@@ -34,11 +34,11 @@ std::optional<Bone> carrier_of(const head::Rig& rig, Part part) {
   }
 }
 
-// Name and roughness, in the order of head::Material.
+// Name and roughness, in the order of head::SurfaceKind.
 constexpr std::pair<const char*, double> kMaterials[] = {
     {"skin", 0.6}, {"eye", 0.1}, {"teeth", 0.3}, {"wet", 0.25}, {"hair", 0.5}, {"cloth", 0.9}};
 
-Json material_of(head::Material material) {
+Json material_of(head::SurfaceKind material) {
   const auto& [name, roughness] = kMaterials[std::size_t(material)];
   return {{"name", name},
           {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", roughness}}}};
@@ -134,7 +134,7 @@ class Writer {
     }
     Json primitive = {{"attributes", attributes},
                       {"indices", buffer_.triangles(indices)},
-                      {"material", material(mesh.material)}};
+                      {"material", material(mesh.surface)}};
     Json out = {{"name", head::kPartNames[number]}};
     add_morphs(number, places.size(), primitive, out);
     out["primitives"] = Json::array({primitive});
@@ -168,7 +168,7 @@ class Writer {
     return colours;
   }
 
-  int material(head::Material wanted) {
+  int material(head::SurfaceKind wanted) {
     const Json entry = material_of(wanted);
     for (std::size_t i = 0; i < materials_.size(); ++i) {
       if (materials_[i] == entry) return int(i);

@@ -66,7 +66,7 @@ struct ReadOptions {
   MouthShapes mouth = MouthShapes::automatic;
   /// Triangles are subdivided to represent textures by vertex colours, up to this number of
   /// vertices. 0: no subdivision; the head keeps its materials and textures, if any
-  /// (Source::coats).
+  /// (Source::materials).
   std::size_t vertices = 60000;
   ReadLimits limits = {};  ///< limits of the file
 };

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 
 #include "tools/formats/common/text.h"
 #include "tools/formats/common/xml.h"
 #include "tools/formats/files/files.h"
 #include "tools/formats/media/picture.h"
-#include "tools/view/plot/scale_internal.h"
 
 namespace animeme::plot {
 
@@ -16,6 +16,58 @@ using tools::drawn;
 using tools::escape_xml;
 
 namespace {
+
+inline constexpr double kLeft = 150;  // pixels to the left of the curves
+
+// The time axis that all panels share.
+struct Axis {
+  double begin = 0;
+  double end = 0;
+  double scale = 1;  // pixels a second
+
+  double x(double seconds) const { return kLeft + (seconds - begin) * scale; }
+  bool shows(double seconds) const { return seconds >= begin && seconds <= end; }
+};
+
+// Values of a unit, from tick to tick.
+struct Scale {
+  double low = 0, high = 0, step = 1;
+};
+
+// 1, 2 or 5 times a power of ten: three to seven ticks.
+double tick_step(double range) {
+  const double power = std::pow(10, std::floor(std::log10(range)));
+  for (const double step : {0.2, 0.5, 1.0}) {
+    if (range <= 5 * step * power) return step * power;
+  }
+  return 2 * power;
+}
+
+// One for each row: rows of one unit share theirs, so that they can be compared. 0 is always on
+// it.
+std::vector<Scale> scales_of(const Panel& panel, const Axis& axis) {
+  std::map<std::string, Scale> of_units;
+  for (const Row& row : panel.rows) {
+    Scale& scale = of_units[row.unit];
+    for (const Points& curve : row.curves) {
+      for (const auto& [time, value] : curve) {
+        if (!axis.shows(time) || std::isnan(value)) continue;
+        scale.low = std::min(scale.low, value);
+        scale.high = std::max(scale.high, value);
+      }
+    }
+  }
+  for (auto& entry : of_units) {
+    Scale& scale = entry.second;
+    scale.high = std::max(scale.high, scale.low + 1);
+    scale.step = tick_step(scale.high - scale.low);
+    scale.low = std::floor(scale.low / scale.step + 1e-9) * scale.step;
+    scale.high = std::ceil(scale.high / scale.step - 1e-9) * scale.step;
+  }
+  std::vector<Scale> scales;
+  for (const Row& row : panel.rows) scales.push_back(of_units[row.unit]);
+  return scales;
+}
 
 constexpr double kRight = 34;
 constexpr double kRow = 110;

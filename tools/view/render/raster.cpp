@@ -34,10 +34,10 @@ std::span<const head::Triangle> triangles_of(const Surface& surface) {
 }
 
 // Null: it has none.
-const head::Coat* coat_of(const Surface& surface, std::size_t facet) {
-  if (facet >= surface.facet_coats.size()) return nullptr;
-  const std::uint16_t coat = surface.facet_coats[facet];
-  return coat < surface.coats.size() ? &surface.coats[coat] : nullptr;
+const head::Material* material_of(const Surface& surface, std::size_t facet) {
+  if (facet >= surface.facet_materials.size()) return nullptr;
+  const std::uint16_t material = surface.facet_materials[facet];
+  return material < surface.materials.size() ? &surface.materials[material] : nullptr;
 }
 
 }  // namespace
@@ -49,7 +49,7 @@ struct Renderer::State {
     std::uint32_t triangle;  // or facet
   };
   // One that blends, and how near it is.
-  struct Veil {
+  struct Transparent {
     Entry entry;
     float nearness;
   };
@@ -57,7 +57,7 @@ struct Renderer::State {
   // their lists one after the other are in the order of the scene.
   struct Bin {
     std::vector<Entry> solid;
-    std::vector<Veil> veils;
+    std::vector<Transparent> transparent;
   };
   using Bins = std::vector<Bin>;
 
@@ -74,9 +74,10 @@ struct Renderer::State {
   void shade_part(const Scene& scene, const detail::View& view, int thread);
   void bin_part(const Scene& scene, int thread);
   void bin_triangle(const Surface& surface, Entry entry, Bins& out);
-  detail::CoatFacet facet_of(const Scene& scene, Entry entry) const;
+  detail::MaterialFacet facet_of(const Scene& scene, Entry entry) const;
   void cover_facets(const Scene& scene, int index, detail::Tile& tile) const;
-  void draw_veils(const Scene& scene, const detail::View& view, int index, detail::Tile& tile);
+  void draw_transparent(const Scene& scene, const detail::View& view, int index,
+                        detail::Tile& tile);
   void draw_part(const Scene& scene, const detail::View& view, int thread);
 };
 
@@ -92,7 +93,7 @@ void Renderer::State::bin_part(const Scene& scene, int thread) {
   Bins& out = bins[std::size_t(thread)];
   for (Bin& bin : out) {
     bin.solid.clear();
-    bin.veils.clear();
+    bin.transparent.clear();
   }
   std::size_t total = 0;
   for (const Surface& surface : scene.surfaces) total += triangles_of(surface).size();
@@ -113,14 +114,14 @@ void Renderer::State::bin_triangle(const Surface& surface, Entry entry, Bins& ou
   const auto& screen = vertices[entry.surface];
   const head::Triangle& t = triangles_of(surface)[entry.triangle];
   if (t[0] >= screen.size() || t[1] >= screen.size() || t[2] >= screen.size()) return;
-  const head::Coat* coat = coat_of(surface, entry.triangle);
-  if (coat == nullptr && !surface.facets.empty()) return;
+  const head::Material* material = material_of(surface, entry.triangle);
+  if (material == nullptr && !surface.facets.empty()) return;
   const ScreenVertex& a = screen[t[0]];
   const ScreenVertex& b = screen[t[1]];
   const ScreenVertex& c = screen[t[2]];
   if (a.nearness <= 0 || b.nearness <= 0 || c.nearness <= 0) return;
   const std::int64_t area = screen_area(a, b, c);
-  if (area == 0 || (area > 0 && (coat == nullptr || !coat->double_sided))) return;
+  if (area == 0 || (area > 0 && (material == nullptr || !material->double_sided))) return;
   constexpr int kStep = kTile * kSubpixels;
   const auto tile = [](std::int32_t v) { return v >= 0 ? v / kStep : -1; };
   const int x0 = std::max(tile(std::min({a.x, b.x, c.x})), 0);
@@ -130,8 +131,8 @@ void Renderer::State::bin_triangle(const Surface& surface, Entry entry, Bins& ou
   for (int y = y0; y <= y1; ++y) {
     for (int x = x0; x <= x1; ++x) {
       Bin& bin = out[std::size_t(y * tiles_x + x)];
-      if (coat != nullptr && coat->alpha_mode == head::AlphaMode::blend) {
-        bin.veils.push_back({entry, a.nearness + b.nearness + c.nearness});
+      if (material != nullptr && material->alpha_mode == head::AlphaMode::blend) {
+        bin.transparent.push_back({entry, a.nearness + b.nearness + c.nearness});
       } else {
         bin.solid.push_back(entry);
       }
@@ -139,13 +140,13 @@ void Renderer::State::bin_triangle(const Surface& surface, Entry entry, Bins& ou
   }
 }
 
-detail::CoatFacet Renderer::State::facet_of(const Scene& scene, Entry entry) const {
+detail::MaterialFacet Renderer::State::facet_of(const Scene& scene, Entry entry) const {
   const Surface& surface = scene.surfaces[entry.surface];
   const ScreenVertex* v = vertices[entry.surface].data();
   head::Triangle t = surface.facets[entry.triangle];
   const bool back = screen_area(v[t[0]], v[t[1]], v[t[2]]) > 0;
   if (back) std::swap(t[1], t[2]);
-  return {{v + t[0], v + t[1], v + t[2]}, t, surface, *coat_of(surface, entry.triangle), back};
+  return {{v + t[0], v + t[1], v + t[2]}, t, surface, *material_of(surface, entry.triangle), back};
 }
 
 // Textures and light cost more than to find out first what is seen.
@@ -153,23 +154,24 @@ void Renderer::State::cover_facets(const Scene& scene, int index, detail::Tile& 
   for (const Bins& found : bins) {
     for (const Entry& entry : found[std::size_t(index)].solid) {
       if (scene.surfaces[entry.surface].facets.empty()) continue;
-      const detail::CoatFacet facet = facet_of(scene, entry);
-      if (facet.coat.alpha_mode == head::AlphaMode::opaque) tile.cover(facet);
+      const detail::MaterialFacet facet = facet_of(scene, entry);
+      if (facet.material.alpha_mode == head::AlphaMode::opaque) tile.cover(facet);
     }
   }
 }
 
 // What is farther away goes first.
-void Renderer::State::draw_veils(const Scene& scene, const detail::View& view, int index,
-                                 detail::Tile& tile) {
-  std::vector<Veil> veils;
+void Renderer::State::draw_transparent(const Scene& scene, const detail::View& view, int index,
+                                       detail::Tile& tile) {
+  std::vector<Transparent> transparent;
   for (const Bins& found : bins) {
-    const auto& more = found[std::size_t(index)].veils;
-    veils.insert(veils.end(), more.begin(), more.end());
+    const auto& more = found[std::size_t(index)].transparent;
+    transparent.insert(transparent.end(), more.begin(), more.end());
   }
-  std::stable_sort(veils.begin(), veils.end(),
-                   [](const Veil& a, const Veil& b) { return a.nearness < b.nearness; });
-  for (const Veil& veil : veils) tile.draw(facet_of(scene, veil.entry), view);
+  std::stable_sort(
+      transparent.begin(), transparent.end(),
+      [](const Transparent& a, const Transparent& b) { return a.nearness < b.nearness; });
+  for (const Transparent& facet : transparent) tile.draw(facet_of(scene, facet.entry), view);
 }
 
 void Renderer::State::draw_part(const Scene& scene, const detail::View& view, int thread) {
@@ -186,10 +188,10 @@ void Renderer::State::draw_part(const Scene& scene, const detail::View& view, in
         }
         const head::Triangle& t = surface.triangles[entry.triangle];
         const ScreenVertex* v = vertices[entry.surface].data();
-        tile.draw({v + t[0], v + t[1], v + t[2]}, surface.material == head::Material::eye, view);
+        tile.draw({v + t[0], v + t[1], v + t[2]}, surface.kind == head::SurfaceKind::eye, view);
       }
     }
-    draw_veils(scene, view, index, tile);
+    draw_transparent(scene, view, index, tile);
     tile.finish(image);
   }
 }

@@ -5,7 +5,7 @@
 ///     const animeme::render::Image& image = renderer.render(scene, camera);
 ///
 /// Four coverage samples and one colour sample per pixel; lighting is per vertex, but per pixel for
-/// eye highlights and for surfaces with materials (coats). These blend as in browsers: in sRGB,
+/// eye highlights and for surfaces with materials. These blend as in browsers: in sRGB,
 /// back to front. The lights are fixed to the camera: a warm key from the upper right with a red
 /// terminator (light inside of skin), a cool fill from the left, a weak rim from behind.
 #pragma once
@@ -32,20 +32,20 @@ struct Camera {
 /// A mesh to draw. All spans are borrowed; those of vertices have the same length. Back faces
 /// (clockwise as seen by the camera) are not drawn.
 struct Surface {
-  std::span<const head::Vec3> positions;           ///< cm
-  std::span<const head::Vec3> normals;             ///< length 1
-  std::span<const head::Vec3> colours;             ///< linear RGB
-  std::span<const float> occlusion;                ///< 0..1
-  std::span<const head::Triangle> triangles;       ///< indices of the vertices
-  head::Material material = head::Material::skin;  ///< material for vertex lighting
-  head::Transform transform;                       ///< applied to positions and normals
+  std::span<const head::Vec3> positions;             ///< cm
+  std::span<const head::Vec3> normals;               ///< length 1
+  std::span<const head::Vec3> colours;               ///< linear RGB
+  std::span<const float> occlusion;                  ///< 0..1
+  std::span<const head::Triangle> triangles;         ///< indices of the vertices
+  head::SurfaceKind kind = head::SurfaceKind::skin;  ///< material for vertex lighting
+  head::Transform transform;                         ///< applied to positions and normals
   /// Drawn instead of `triangles` if not empty: see head::Mesh. Facets with an invalid index or
-  /// coat are not drawn.
+  /// material are not drawn.
   std::span<const head::Triangle> facets;
-  std::span<const head::Corner> corners;        ///< of facets
-  std::span<const std::uint16_t> facet_coats;   ///< of each facet, index of `coats`
-  std::span<const head::Coat> coats;            ///< see head::Head
-  std::span<const head::Vec3> normals_at_rest;  ///< of vertices; corner normals rotate with them
+  std::span<const head::Corner> corners;           ///< of facets
+  std::span<const std::uint16_t> facet_materials;  ///< of each facet, index of `materials`
+  std::span<const head::Material> materials;       ///< see head::Head
+  std::span<const head::Vec3> normals_at_rest;     ///< of vertices; corner normals rotate with them
 };
 
 /// Surfaces to draw, with depth test.

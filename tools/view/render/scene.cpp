@@ -33,8 +33,8 @@ Scene scene_of(const head::Head& head, const head::Rig& rig, const head::Pose& p
     const bool moved = !pose.positions[i].empty();
     scene.surfaces.push_back({moved ? pose.positions[i] : rig.parts[i].positions,
                               moved ? pose.normals[i] : rig.parts[i].normals, mesh.colours,
-                              mesh.occlusion, mesh.triangles, mesh.material, pose.transforms[i],
-                              mesh.facets, mesh.corners, mesh.coats, head.coats,
+                              mesh.occlusion, mesh.triangles, mesh.surface, pose.transforms[i],
+                              mesh.facets, mesh.corners, mesh.materials, head.materials,
                               rig.parts[i].normals});
   }
   return scene;

@@ -30,7 +30,7 @@ Result<Animation> Animation::open(int width, int height, int quality) {
     return make_error(Code::unsupported, "this libwebp is another than that of the headers");
   }
   impl->config.method = 2;  // quick: a film of 640 pixels is coded about as fast as it is drawn
-  options.kmax = 25;        // a picture that stands for itself now and then, so that errors end
+  options.kmax = 25;        // a key frame now and then, so that errors end
   impl->encoder = WebPAnimEncoderNew(width, height, &options);
   if (impl->encoder == nullptr) return make_error(Code::out_of_range, "no memory for an animation");
   return Animation(std::move(impl));

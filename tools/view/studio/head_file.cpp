@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <new>
-#include <optional>
 
 #include "fap/head/obj.h"
 #include "fap/head/own_head.h"

@@ -25,7 +25,7 @@ std::uint64_t sum_of(std::string_view bytes) {
   return sum;
 }
 
-// Of the machine's own byte order and layout: nobody else reads it.
+// In the byte order and layout of this machine: the file is local.
 struct Writer {
   std::string bytes;
 
@@ -94,7 +94,7 @@ void all_fields(Archive& archive, Head& head) {
     archive(mesh.triangles);
     archive(mesh.colours);
     archive(mesh.occlusion);
-    archive(mesh.material);
+    archive(mesh.surface);
   }
   archive(head.eyes);
   archive(head.feature_points);

@@ -23,7 +23,7 @@ std::string cache_folder();
 /// the cache; empty: no cache. Errors: not_found (another name); errors of the cache are ignored.
 Result<head::Head> ready_head(std::string_view name, const std::string& folder = cache_folder());
 
-/// Serialises a head, without coats, shapes and corners, which built-in heads do not have.
+/// Serialises a head, without materials, shapes and corners, which built-in heads do not have.
 std::string store_head(const head::Head& head);
 /// Restores the head; nullopt if the bytes are not complete output of store_head() of this build.
 std::optional<head::Head> restore_head(std::string_view bytes);

@@ -48,9 +48,10 @@ std::size_t shrink_pictures(head::Head& head, std::size_t most_bytes) {
   // The old ones are kept until the end, so that no new one has the place of an old one.
   std::map<std::shared_ptr<const head::Picture>, std::shared_ptr<const head::Picture>> done;
   std::size_t count = 0;
-  for (head::Coat& coat : head.coats) {
-    for (head::Texture* texture : {&coat.base, &coat.normal, &coat.metal_rough, &coat.occlusion,
-                                   &coat.emissive, &coat.shade_texture}) {
+  for (head::Material& material : head.materials) {
+    for (head::Texture* texture :
+         {&material.base, &material.normal, &material.metal_rough, &material.occlusion,
+          &material.emissive, &material.shade_texture}) {
       if (!*texture || texture->picture->file().size() <= most_bytes) continue;
       const auto [place, is_new] = done.try_emplace(texture->picture);
       if (is_new) place->second = smaller(*texture->picture);

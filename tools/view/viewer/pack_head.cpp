@@ -6,7 +6,7 @@
 #include "tools/formats/common/json.h"
 #include "tools/view/render/scene.h"
 #include "tools/view/viewer/detail/bytes.h"
-#include "tools/view/viewer/detail/coats.h"
+#include "tools/view/viewer/detail/materials.h"
 #include "tools/view/viewer/rig/packed_rig.h"
 #include "tools/view/viewer/viewer.h"
 
@@ -36,7 +36,7 @@ std::uint32_t shown(float light) {
 // What is drawn; where it is stands in the packed rig.
 Json write_part(const head::Mesh& mesh, std::string_view name, Bytes& out) {
   Json part{{"name", name},
-            {"material", kMaterials[std::size_t(mesh.material)]},
+            {"surface", kMaterials[std::size_t(mesh.surface)]},
             {"solid", mesh.triangles.size()}};  // further ones bear on normals alone
   for (int k = 0; k < 3; ++k) {
     for (const Vec3 c : mesh.colours) out.u8(shown(axis(c, k)));
@@ -88,7 +88,7 @@ std::vector<std::uint8_t> pack_head(const head::Head& head, const head::Rig& rig
               {"parts", parts},
               {"points", points_of(head)},
               {"camera", camera_of(head)}};
-  if (!head.coats.empty()) header.update(detail::write_coats(head.coats, data));
+  if (!head.materials.empty()) header.update(detail::write_materials(head.materials, data));
   return detail::with_header(header, data);
 }
 

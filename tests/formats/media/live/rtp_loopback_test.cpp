@@ -17,7 +17,7 @@ namespace rtp_loopback_test {
 using test::LiveTalk;
 using ::testing::HasSubstr;
 
-struct Heard {
+struct Received {
   LiveInfo info;
   std::vector<LiveUnit> units;
   int gaps = 0;
@@ -32,21 +32,21 @@ struct Heard {
 };
 
 // Takes what is there; at most `seconds` without anything.
-void hear(LiveSource& source, double seconds, Heard& heard) {
+void hear(LiveSource& source, double seconds, Received& received) {
   for (;;) {
     auto event = source.next(seconds);
     ASSERT_TRUE(event) << event.error().describe();
-    if (std::holds_alternative<LiveIdle>(*event) || heard.end) return;
-    heard.add(std::move(*event));
-    if (heard.end) return;
+    if (std::holds_alternative<LiveIdle>(*event) || received.end) return;
+    received.add(std::move(*event));
+    if (received.end) return;
   }
 }
 
 // Sends without pauses; the receiver reads after each unit, so that no buffer overflows.
-Heard over_sockets(const LiveTalk& talk, RtpOptions options = {}) {
+Received over_sockets(const LiveTalk& talk, RtpOptions options = {}) {
   const test::TempDir dir;
   options.sdp_path = dir.file("talk.sdp");
-  Heard heard;
+  Received received;
   auto sink = open_sink("rtp://127.0.0.1:" + std::to_string(test::free_ports()), {options});
   EXPECT_TRUE(sink) << sink.error().describe();
   const auto started = (*sink)->start(talk.info);
@@ -54,15 +54,15 @@ Heard over_sockets(const LiveTalk& talk, RtpOptions options = {}) {
   // In order, as they are here, nothing is to be waited for; that makes the end come at once.
   auto source = open_source(options.sdp_path, {.rtp = {.reorder_seconds = 0.01}});
   EXPECT_TRUE(source) << source.error().describe();
-  if (!sink || !started || !source) return heard;
+  if (!sink || !started || !source) return received;
   for (const LiveUnit& unit : talk.units) {
     EXPECT_TRUE((*sink)->send(unit));
-    hear(**source, 0, heard);
+    hear(**source, 0, received);
   }
   EXPECT_TRUE((*sink)->finish());
-  hear(**source, 5, heard);
+  hear(**source, 5, received);
   EXPECT_EQ((*source)->stats().lost, 0);
-  return heard;
+  return received;
 }
 
 TEST(RtpLoopback, EveryReferenceStreamComesBackByteForByte) {
@@ -71,19 +71,19 @@ TEST(RtpLoopback, EveryReferenceStreamComesBackByteForByte) {
     const auto face = fba::split_access_units(test::read_bytes(test::with(base, ".fba")));
     if (!face) continue;
     const LiveTalk talk = test::talk_of(*face);
-    const Heard heard = over_sockets(talk, {.seed = std::uint64_t(++streams)});
+    const Received received = over_sockets(talk, {.seed = std::uint64_t(++streams)});
     SCOPED_TRACE(base.filename());
-    EXPECT_EQ(heard.info, talk.info);
-    EXPECT_TRUE(heard.end);
-    EXPECT_EQ(heard.gaps, 0);
-    ASSERT_EQ(heard.units.size(), talk.units.size());
-    for (std::size_t i = 0; i < heard.units.size(); ++i) {
-      ASSERT_EQ(heard.units[i].bytes, talk.units[i].bytes) << i;
-      ASSERT_EQ(heard.units[i].intra, talk.units[i].intra) << i;
-      ASSERT_EQ(heard.units[i].time, talk.units[i].time) << i;
-      const bool last = i + 1 == heard.units.size();
+    EXPECT_EQ(received.info, talk.info);
+    EXPECT_TRUE(received.end);
+    EXPECT_EQ(received.gaps, 0);
+    ASSERT_EQ(received.units.size(), talk.units.size());
+    for (std::size_t i = 0; i < received.units.size(); ++i) {
+      ASSERT_EQ(received.units[i].bytes, talk.units[i].bytes) << i;
+      ASSERT_EQ(received.units[i].intra, talk.units[i].intra) << i;
+      ASSERT_EQ(received.units[i].time, talk.units[i].time) << i;
+      const bool last = i + 1 == received.units.size();
       if (!last) {
-        ASSERT_EQ(heard.units[i].duration, talk.units[i].duration) << i;
+        ASSERT_EQ(received.units[i].duration, talk.units[i].duration) << i;
       }
     }
   }
@@ -96,10 +96,10 @@ TEST(RtpLoopback, FaceAndSoundOfBothCodecs) {
   for (const AudioFormat& format : {test::aac_format(), opus}) {
     LiveTalk talk = test::random_talk(50);
     test::add_sound(talk, format);
-    const Heard heard = over_sockets(talk);
-    EXPECT_EQ(heard.info, talk.info);
+    const Received received = over_sockets(talk);
+    EXPECT_EQ(received.info, talk.info);
     for (const LiveTrack track : {LiveTrack::face, LiveTrack::audio}) {
-      EXPECT_EQ(test::only(heard.units, track), test::only(talk.units, track));
+      EXPECT_EQ(test::only(received.units, track), test::only(talk.units, track));
     }
   }
 }
@@ -114,13 +114,13 @@ TEST(RtpLoopback, BetweenIpv6Addresses) {
   ASSERT_TRUE((*sink)->start(talk.info));
   for (const LiveUnit& unit : talk.units) ASSERT_TRUE((*sink)->send(unit));
   ASSERT_TRUE((*sink)->finish());
-  Heard heard;
-  hear(**source, 5, heard);
-  ASSERT_EQ(heard.units.size(), talk.units.size());
-  EXPECT_EQ(heard.units[9].bytes, talk.units[9].bytes);
-  EXPECT_EQ(heard.info.face_config, talk.info.face_config);
-  EXPECT_EQ(heard.info.timescale, 90000u);
-  EXPECT_EQ(heard.units[9].time, 9 * 3600);
+  Received received;
+  hear(**source, 5, received);
+  ASSERT_EQ(received.units.size(), talk.units.size());
+  EXPECT_EQ(received.units[9].bytes, talk.units[9].bytes);
+  EXPECT_EQ(received.info.face_config, talk.info.face_config);
+  EXPECT_EQ(received.info.timescale, 90000u);
+  EXPECT_EQ(received.units[9].time, 9 * 3600);
 }
 
 TEST(RtpLoopback, OverMulticast) {
@@ -136,9 +136,9 @@ TEST(RtpLoopback, OverMulticast) {
   ASSERT_TRUE((*sink)->start(talk.info));
   for (const LiveUnit& unit : talk.units) ASSERT_TRUE((*sink)->send(unit));
   ASSERT_TRUE((*sink)->finish());
-  Heard heard;
-  hear(**source, 5, heard);
-  EXPECT_EQ(heard.units.size(), talk.units.size());
+  Received received;
+  hear(**source, 5, received);
+  EXPECT_EQ(received.units.size(), talk.units.size());
 }
 
 TEST(RtpLoopback, ALossyRelayBetweenThem) {
@@ -156,18 +156,18 @@ TEST(RtpLoopback, ALossyRelayBetweenThem) {
     auto source = open_source(sdp, {.rtp = {.reorder_seconds = 0.02}});
     ASSERT_TRUE(source) << source.error().describe();
     test::UdpRelay relay(front, back, 9, loss);
-    Heard heard;
+    Received received;
     for (const LiveUnit& unit : talk.units) {
       ASSERT_TRUE((*sink)->send(unit));
       relay.pump();
-      hear(**source, 0, heard);
+      hear(**source, 0, received);
     }
     ASSERT_TRUE((*sink)->finish());
     relay.pump();
-    hear(**source, 5, heard);
-    EXPECT_TRUE(heard.end);
-    EXPECT_EQ(heard.units.size() == talk.units.size(), loss == 0);
-    EXPECT_EQ(heard.gaps > 0, loss > 0);
+    hear(**source, 5, received);
+    EXPECT_TRUE(received.end);
+    EXPECT_EQ(received.units.size() == talk.units.size(), loss == 0);
+    EXPECT_EQ(received.gaps > 0, loss > 0);
     EXPECT_EQ((*source)->stats().lost > 0, loss > 0);
   }
 }
@@ -230,16 +230,16 @@ TEST(RtpLoopback, AReceiverThatIsHeldUpTakesWhatLiesInTheSocketBeforeItGivesUp) 
   send(0, 3);  // nobody is there
   auto source = open_source(options.sdp_path, {.rtp = {.reorder_seconds = 0.01}});
   ASSERT_TRUE(source) << source.error().describe();
-  Heard heard;
+  Received received;
   send(3, 4);  // with a copy of the first
-  hear(**source, 0, heard);
+  hear(**source, 0, received);
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
   send(4, 7);  // with copies of the second to the fourth
-  hear(**source, 0.2, heard);
+  hear(**source, 0.2, received);
   EXPECT_EQ((*source)->stats().lost, 0);
-  EXPECT_EQ(heard.gaps, 0);
-  ASSERT_EQ(heard.units.size(), 7u);
-  for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(heard.units[i].bytes, talk.units[i].bytes) << i;
+  EXPECT_EQ(received.gaps, 0);
+  ASSERT_EQ(received.units.size(), 7u);
+  for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(received.units[i].bytes, talk.units[i].bytes) << i;
 }
 
 // What is sent on this machine is answered on this machine: the port is taken at one address only.

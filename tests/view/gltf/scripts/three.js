@@ -1,5 +1,5 @@
 // node three.js FILE.glb CAMERA.json OUT.rgb: what three.js draws of a file, by the lights of
-// tools/view/render/detail/coat_light.cpp. CAMERA: {eye, target, angle (rad), size (pixels), background (0xRRGGBB)}; with `time` its
+// tools/view/render/detail/material_light.cpp. CAMERA: {eye, target, angle (rad), size (pixels), background (0xRRGGBB)}; with `time` its
 // first animation at that second, without `eye` what shapes move from the front. OUT: R, G, B, rows from the top.
 'use strict';
 

@@ -75,12 +75,12 @@ async function looks(page, file, folder) {
   await open(page, file, '?frame=0&mode=first');
   const report = {state: await page.evaluate('window.animeme.state()')};
   const {mouth, around, forehead} = boxes(await page.evaluate('window.animeme.points()'));
-  const stage = await page.evaluate(`(() => {
+  const viewport = await page.evaluate(`(() => {
     const box = document.getElementById('picture').getBoundingClientRect();
     return {x: box.left, y: box.top};
   })()`);
-  const placed = (box) => ({left: box.left + stage.x, right: box.right + stage.x,
-    top: box.top + stage.y, bottom: box.bottom + stage.y});
+  const placed = (box) => ({left: box.left + viewport.x, right: box.right + viewport.x,
+    top: box.top + viewport.y, bottom: box.bottom + viewport.y});
   const pictures = [];
   for (const frame of [0, 1, 2]) {
     await show(page, frame);
@@ -289,7 +289,7 @@ function measure() {
 function lowest() {
   document.querySelector('[name=mode][value=first]').click();
   window.animeme.draw();
-  const {top} = document.getElementById('stage').getBoundingClientRect();
+  const {top} = document.getElementById('viewport').getBoundingClientRect();
   return {
     chin: window.animeme.points().find(({id}) => id === '2.1').y + top,
     said: document.getElementById('now').getBoundingClientRect().top,

@@ -4,7 +4,7 @@ import {openFba, openMp4} from './files.js';
 import {openHls} from './hls.js';
 import {ready} from './index.js';
 import {openLive} from './live.js';
-import {Stage} from './stage.js';
+import {Viewport} from './viewport.js';
 import {Track} from './track.js';
 import {ArkitFitter, VisemeFitter} from './weights.js';
 
@@ -61,8 +61,8 @@ export class AnimemeFace extends HTMLElement {
   disconnectedCallback() {
     this.connected = false;
     this.stop();
-    this.stage?.close();
-    this.stage = null;
+    this.viewport?.close();
+    this.viewport = null;
     this.loadedHead = null;
   }
 
@@ -132,8 +132,8 @@ export class AnimemeFace extends HTMLElement {
     if (!head || head === this.loadedHead) return;
     this.loadedHead = head;
     this.headLoading = ready().then(async () => {
-      this.stage ??= new Stage(this.canvas);
-      await this.stage.loadHead(head);
+      this.viewport ??= new Viewport(this.canvas);
+      await this.viewport.loadHead(head);
       this.weights.frame = null;  // shown again on this head
       this.tell('head');
     }).catch((problem) => this.fail(problem));
@@ -222,10 +222,10 @@ export class AnimemeFace extends HTMLElement {
       this.weights.frame = frame;
       this.fitters.arkit.fit(frame, this.weights.arkit);
       this.fitters.visemes.fit(frame, this.weights.visemes);
-      this.stage?.head?.show(this.weights.arkit, this.weights.visemes, frame);
+      this.viewport?.head?.show(this.weights.arkit, this.weights.visemes, frame);
       this.tell('frame', frame);
     }
-    if (this.stage?.head) this.stage.draw();
+    if (this.viewport?.head) this.viewport.draw();
   }
 }
 

@@ -28,19 +28,8 @@ struct Coordinate {
   bool capital = false;  // X_0, not x_0
 };
 
-std::optional<std::size_t> axis_of(char c) {
-  if (c == 'x' || c == 'X') return 0;
-  if (c == 'y' || c == 'Y') return 1;
-  if (c == 'z' || c == 'Z') return 2;
-  return std::nullopt;
-}
-
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_break(char c) { return c == '_' || c == '-' || c == ' ' || c == '.'; }
-
-bool is_number(std::string_view text) {
-  return !text.empty() && text.size() <= 6 && std::all_of(text.begin(), text.end(), is_digit);
-}
 
 bool is_feature_point(std::string_view id) {
   if (id == fap::kNasion) return true;
@@ -53,7 +42,7 @@ std::optional<Coordinate> axis_first(std::string_view name) {
   const auto axis = axis_of(name[0]);
   std::string_view rest = name.substr(1);
   if (!rest.empty() && is_break(rest[0])) rest.remove_prefix(1);
-  if (!axis || !is_number(rest)) return std::nullopt;
+  if (!axis || !is_short_number(rest)) return std::nullopt;
   return Coordinate{std::string(rest), *axis, name[0] < 'a'};
 }
 
@@ -73,7 +62,7 @@ std::optional<Coordinate> axis_last(std::string_view name) {
     return std::nullopt;
   }
   const std::string_view id = rest.substr(begin);
-  if (!is_number(id) && !is_feature_point(id)) return std::nullopt;
+  if (!is_short_number(id) && !is_feature_point(id)) return std::nullopt;
   return Coordinate{std::string(id), *axis, false};
 }
 
@@ -96,7 +85,7 @@ struct Found {
 };
 
 Field* place_of(Found& found, const Coordinate& coordinate) {
-  if (!is_number(coordinate.point)) return &found.named[coordinate.point][coordinate.axis];
+  if (!is_short_number(coordinate.point)) return &found.named[coordinate.point][coordinate.axis];
   const int number = std::stoi(coordinate.point);
   if (number >= kMostLandmarks) return nullptr;
   return &(coordinate.capital ? found.capital : found.numbered)[number][coordinate.axis];
@@ -237,7 +226,9 @@ bool is_landmark_header(std::string_view header) {
 
 bool is_coordinate_name(std::string_view name) { return parse_coordinate(name).has_value(); }
 
-bool is_point_name(std::string_view name) { return is_number(name) || is_feature_point(name); }
+bool is_point_name(std::string_view name) {
+  return is_short_number(name) || is_feature_point(name);
+}
 
 bool has_landmark_columns(std::string_view header) {
   LandmarkColumns columns;

@@ -10,6 +10,16 @@ constexpr std::size_t kNamesInList = 6;
 
 }  // namespace
 
+std::optional<std::size_t> axis_of(char c) {
+  const std::size_t axis = std::string_view("xXyYzZ").find(c);
+  return axis == std::string_view::npos ? std::nullopt : std::optional(axis / 2);
+}
+
+bool is_short_number(std::string_view text) {
+  return !text.empty() && text.size() <= 6 &&
+         text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
 std::string_view first_line(std::string_view text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   return text.substr(0, text.find_first_of("\r\n"));

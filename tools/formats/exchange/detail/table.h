@@ -15,6 +15,11 @@ namespace animeme::exchange {
 
 using fap::detail::lower_case;
 
+/// 0, 1, 2 for x, y, z in either case.
+std::optional<std::size_t> axis_of(char c);
+/// One to six digits, as numbers of points have.
+bool is_short_number(std::string_view text);
+
 /// The header of a table: its first line, without a byte order mark.
 std::string_view first_line(std::string_view text);
 

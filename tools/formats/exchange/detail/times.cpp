@@ -79,7 +79,7 @@ int tell_timecode_rate(const std::vector<RowTime>& times, std::optional<fap::Rat
                        std::vector<std::string>& warnings) {
   double last = 0;
   for (const RowTime& time : times) last = std::max(last, time.frames.value_or(0));
-  // If some second ends within the recording, its last frame number tells the rate.
+  // The last frame number of a whole second gives the rate.
   if (times.front().seconds != times.back().seconds) {
     // Slower than any camera, and no row missing: the second ends where it ends.
     const bool slow = last < kTimecodeRates[0] - 1 && timecode_step(times) == 1;

@@ -17,7 +17,7 @@ constexpr std::int64_t kEnoughToTell = std::int64_t(1) << 20;
 
 class TsSource : public LiveSource {
  public:
-  /// `connection`: all bytes are of one sender, who is refused if they are no transport stream.
+  /// `connection`: all bytes come from one sender; not a transport stream: an error.
   TsSource(std::unique_ptr<NetReader> reader, bool connection, bool any_source)
       : reader_(std::move(reader)), connection_(connection), input_(any_source) {}
 

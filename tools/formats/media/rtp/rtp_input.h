@@ -118,7 +118,7 @@ class RtpInput {
   double control_heard_ = 0;
   std::vector<Candidate> candidates_;
   std::optional<Candidate> chosen_;
-  bool renewed_ = false;  // whoever was described has gone
+  bool renewed_ = false;  // the sender of the session description has gone
   std::deque<EarlyReport> early_reports_;
   std::optional<double> bye_at_;
   double last_heard_ = 0;

@@ -1,4 +1,4 @@
-// What a receiver tells of what it has heard.
+// Receiver reports.
 #include <algorithm>
 
 #include "tools/formats/media/rtp/rtp_receiver.h"

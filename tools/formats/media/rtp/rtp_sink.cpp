@@ -1,4 +1,3 @@
-#include <fstream>
 #include <utility>
 
 #include "tools/formats/files/output_file.h"

@@ -11,7 +11,7 @@
 namespace animeme::media {
 namespace {
 
-constexpr fap::Rate kUnknownRate{30, 1};  // what a decoder assumes until the stream tells
+constexpr fap::Rate kUnknownRate{30, 1};  // assumed until the stream has its rate
 
 // a * b / c to the nearest, halves up; c > 0. Wide enough for times of centuries.
 std::int64_t scale(std::int64_t a, std::int64_t b, std::int64_t c) {

@@ -64,8 +64,8 @@ class SessionClock {
   void believe(LiveTrack name, std::deque<LiveEvent>& out);
   void release(LiveTrack name, std::deque<LiveEvent>& out);
 
-  std::optional<LiveInfo> given_;      // told to the receiver
-  LiveInfo sender_;                    // what the sender in force has said
+  std::optional<LiveInfo> given_;      // that the receiver has
+  LiveInfo sender_;                    // from the current sender
   Track tracks_[2];                    // by LiveTrack
   double anchor_ = 0, anchor_at_ = 0;  // our time, when
   double reached_ = 0;                 // our time of the last unit of either track

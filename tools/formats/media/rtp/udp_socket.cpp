@@ -27,7 +27,7 @@ Error failed(const std::string& what) {
 sockaddr* raw(std::uint8_t* bytes) { return reinterpret_cast<sockaddr*>(bytes); }
 const sockaddr* raw(const std::uint8_t* bytes) { return reinterpret_cast<const sockaddr*>(bytes); }
 
-// Copies, so that nobody looks at bytes as something that they are not.
+// Copies the bytes, since a cast would break the aliasing rules.
 template <class T>
 T as(const std::uint8_t* bytes) {
   T value;
@@ -214,7 +214,7 @@ Result<UdpSocket> UdpSocket::open_for(const UdpAddress& to, const Multicast& mul
   if (!handle) return handle.error();
   UdpSocket socket(*handle);
   if (auto ok = prepare_sending(*handle, to, multicast); !ok) return ok.error();
-  if (to.is_loopback()) {  // nobody else is to answer
+  if (to.is_loopback()) {  // other processes must not answer
     const UdpAddress from = to.with_port(0);
     if (::bind(*handle, raw(from.bytes_), from.size_) != 0) return failed("no port is free");
   }
@@ -233,7 +233,7 @@ UdpSocket::~UdpSocket() {
 }
 
 Result<void> UdpSocket::send(std::span<const std::uint8_t> datagram, const UdpAddress& to) {
-  // An error that waits on the socket (of an earlier datagram) is told first; so try twice.
+  // A pending error of an earlier datagram is returned first; so try twice.
   for (int attempt = 0; attempt < 2; ++attempt) {
     const auto sent =
         ::sendto(handle_, datagram.data(), datagram.size(), MSG_NOSIGNAL, raw(to.bytes_), to.size_);

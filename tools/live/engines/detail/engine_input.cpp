@@ -25,7 +25,7 @@ Result<void> EngineInput::push(std::span<const std::uint8_t> bytes, const media:
     return {};
   }
   if (!heard) return consider(bytes, from, *name, now, out);
-  std::vector<HeardFace> faces;
+  std::vector<ReceivedFace> faces;
   if (!sender_->reader.push(bytes, now, faces)) {
     ++stats_.foreign;
     return {};
@@ -51,7 +51,7 @@ Result<void> EngineInput::consider(std::span<const std::uint8_t> bytes,
   });
   if (who == others_.end()) {
     PacketReader reader(address_.protocol);
-    std::vector<HeardFace> faces;
+    std::vector<ReceivedFace> faces;
     if (!reader.push(bytes, now, faces)) return {};
     if (others_.size() >= kMostStrangers) {  // the one that was heard longest ago
       others_.erase(std::min_element(others_.begin(), others_.end(),
@@ -60,7 +60,7 @@ Result<void> EngineInput::consider(std::span<const std::uint8_t> bytes,
     others_.push_back({from, name, std::move(reader), now, 1, std::move(faces)});
     return {};
   }
-  std::vector<HeardFace> faces;
+  std::vector<ReceivedFace> faces;
   if (!who->reader.push(bytes, now, faces)) return {};
   if (now - who->last > kQuiet) {  // one packet now and then proves nothing
     who->packets = 0;
@@ -81,16 +81,16 @@ Result<void> EngineInput::consider(std::span<const std::uint8_t> bytes,
   coder_.restart();
   clock_ = {};
   transit_.reset();
-  std::vector<HeardFace> kept = std::exchange(sender_->faces, {});
+  std::vector<ReceivedFace> kept = std::exchange(sender_->faces, {});
   kept.insert(kept.end(), faces.begin(), faces.end());
   auto given = give(kept, now, out);
   look_for_end(out);
   return given;
 }
 
-Result<void> EngineInput::give(const std::vector<HeardFace>& faces, double now,
+Result<void> EngineInput::give(const std::vector<ReceivedFace>& faces, double now,
                                std::deque<media::LiveEvent>& out) {
-  for (const HeardFace& face : faces) {
+  for (const ReceivedFace& face : faces) {
     const auto seconds = clock_.time(face.seconds, face.arrival);
     if (!seconds) {
       ++stats_.late;
@@ -109,7 +109,7 @@ Result<void> EngineInput::give(const std::vector<HeardFace>& faces, double now,
 
 Result<void> EngineInput::tick(double now, std::deque<media::LiveEvent>& out) {
   if (!sender_) return {};
-  std::vector<HeardFace> faces;
+  std::vector<ReceivedFace> faces;
   sender_->reader.tick(now, faces);
   return give(faces, now, out);
 }

@@ -43,10 +43,10 @@ class EngineInput {
     PacketReader reader;
     double last = 0;
     int packets = 0;
-    std::vector<HeardFace> faces;  // of its last packet, while it is not heard
+    std::vector<ReceivedFace> faces;  // of its last packet, while it is not heard
   };
 
-  Result<void> give(const std::vector<HeardFace>& faces, double now,
+  Result<void> give(const std::vector<ReceivedFace>& faces, double now,
                     std::deque<media::LiveEvent>& out);
   Result<void> consider(std::span<const std::uint8_t> bytes, const media::UdpAddress& from,
                         const std::string& name, double now, std::deque<media::LiveEvent>& out);

@@ -58,7 +58,7 @@ bool FaceCoder::measure() {
   return true;
 }
 
-Result<void> FaceCoder::push(double seconds, const HeardFace& face,
+Result<void> FaceCoder::push(double seconds, const ReceivedFace& face,
                              std::deque<media::LiveEvent>& out) {
   if (rate_) return place(seconds, face, out);
   waiting_.push_back({seconds, face});
@@ -69,7 +69,7 @@ Result<void> FaceCoder::push(double seconds, const HeardFace& face,
   return {};
 }
 
-Result<void> FaceCoder::begin(const HeardFace& face, std::deque<media::LiveEvent>& out) {
+Result<void> FaceCoder::begin(const ReceivedFace& face, std::deque<media::LiveEvent>& out) {
   fba::LiveOptions options;
   options.rate = fap::make_rate(std::uint32_t(*rate_));
   options.intra_seconds = intra_seconds_;
@@ -107,7 +107,7 @@ Result<void> FaceCoder::code(const fap::ArkitFrame& values, std::deque<media::Li
   return {};
 }
 
-Result<void> FaceCoder::place(double seconds, const HeardFace& face,
+Result<void> FaceCoder::place(double seconds, const ReceivedFace& face,
                               std::deque<media::LiveEvent>& out) {
   const std::int64_t place = std::llround(seconds * *rate_);
   if (last_ && place <= *last_) {

@@ -20,7 +20,7 @@ class FaceCoder {
 
   /// `seconds` ascend from 0. Appends LiveInfo, planes, and a LiveGap where more than a second
   /// is missing. Errors: those of the encoder.
-  Result<void> push(double seconds, const HeardFace& face, std::deque<media::LiveEvent>& out);
+  Result<void> push(double seconds, const ReceivedFace& face, std::deque<media::LiveEvent>& out);
   /// Another sender, or time begins again: LiveInfo comes once more, at the same rate.
   void restart();
 
@@ -30,11 +30,11 @@ class FaceCoder {
  private:
   struct Waiting {
     double seconds;
-    HeardFace face;
+    ReceivedFace face;
   };
   bool measure();
-  Result<void> begin(const HeardFace& face, std::deque<media::LiveEvent>& out);
-  Result<void> place(double seconds, const HeardFace& face, std::deque<media::LiveEvent>& out);
+  Result<void> begin(const ReceivedFace& face, std::deque<media::LiveEvent>& out);
+  Result<void> place(double seconds, const ReceivedFace& face, std::deque<media::LiveEvent>& out);
   Result<void> code(const fap::ArkitFrame& values, std::deque<media::LiveEvent>& out);
 
   std::optional<int> rate_;

@@ -13,7 +13,7 @@ constexpr double kQuietSeconds = 0.004;  // between the packets of two frames, b
 }  // namespace
 
 bool PacketReader::push(std::span<const std::uint8_t> bytes, double now,
-                        std::vector<HeardFace>& out) {
+                        std::vector<ReceivedFace>& out) {
   if (protocol_ == Protocol::live_link) {
     const auto packet = read_live_link(bytes);
     if (!packet) return false;
@@ -28,7 +28,7 @@ bool PacketReader::push(std::span<const std::uint8_t> bytes, double now,
   return any;
 }
 
-bool PacketReader::push_osc(const OscMessage& message, double now, std::vector<HeardFace>& out) {
+bool PacketReader::push_osc(const OscMessage& message, double now, std::vector<ReceivedFace>& out) {
   if (protocol_ == Protocol::unified) {
     if (!unified_.take(message)) return false;
     if (!begun_) begun_ = now;
@@ -50,7 +50,7 @@ bool PacketReader::push_osc(const OscMessage& message, double now, std::vector<H
   return true;
 }
 
-void PacketReader::tick(double now, std::vector<HeardFace>& out) {
+void PacketReader::tick(double now, std::vector<ReceivedFace>& out) {
   if (!latest_ || now - *latest_ < kQuietSeconds) return;
   out.push_back({unified_.values(), unified_.channels(), std::nullopt, *begun_});
   begun_.reset();

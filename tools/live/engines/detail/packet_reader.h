@@ -14,7 +14,7 @@
 namespace animeme::engines {
 
 /// A face as it was received.
-struct HeardFace {
+struct ReceivedFace {
   fap::ArkitFrame values{};
   fap::ArkitChannels channels;    ///< that the sender has
   std::optional<double> seconds;  ///< by the sender's clock, if it has one
@@ -26,16 +26,16 @@ class PacketReader {
   explicit PacketReader(Protocol protocol) : protocol_(protocol) {}
 
   /// Takes a datagram and appends the faces that it completes. false: it is none of the protocol.
-  bool push(std::span<const std::uint8_t> bytes, double now, std::vector<HeardFace>& out);
+  bool push(std::span<const std::uint8_t> bytes, double now, std::vector<ReceivedFace>& out);
   /// A face that nothing more has come for: Unified Expressions have no mark at the end of a frame.
-  void tick(double now, std::vector<HeardFace>& out);
+  void tick(double now, std::vector<ReceivedFace>& out);
   /// The sender has said goodbye; told once.
   bool take_end();
   /// Seconds until tick() may have something; nothing: it does not wait.
   std::optional<double> patience(double now) const;
 
  private:
-  bool push_osc(const OscMessage& message, double now, std::vector<HeardFace>& out);
+  bool push_osc(const OscMessage& message, double now, std::vector<ReceivedFace>& out);
 
   Protocol protocol_;
   VmcState vmc_;

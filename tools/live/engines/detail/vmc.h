@@ -26,7 +26,7 @@ namespace animeme::engines {
 
 std::vector<OscMessage> vmc_messages(const Face& face, double seconds, ShapeNames names,
                                      bool bones);
-/// The one that tells the end.
+/// The message that ends a session.
 OscMessage vmc_end();
 
 /// What one message after the other says.

@@ -39,7 +39,7 @@ int Client::handle(lws* wsi, lws_callback_reasons reason, const char* in, std::s
       connection->message.insert(connection->message.end(), in, in + size);
       if (connection->message.size() > kLargestMessage) return -1;
       if (lws_remaining_packet_payload(wsi) > 0 || lws_is_final_fragment(wsi) == 0) return 0;
-      if (lws_frame_is_binary(wsi) == 0) {  // told in words, to pages
+      if (lws_frame_is_binary(wsi) == 0) {  // text messages are for pages
         connection->message.clear();
         return 0;
       }
@@ -84,7 +84,7 @@ void Client::established(Connection& connection, lws* wsi) {
 /// A message is complete.
 int Client::receive(Connection& connection) {
   Connection& sound = connections_[1];
-  if (!connection.sound && !sound.wanted) {  // the first message tells whether there is a sound
+  if (!connection.sound && !sound.wanted) {  // the first message says whether there is a sound
     const Result<Hello> hello = read_hello(connection.message);
     sound.wanted = true;
     if (hello && hello->has_sound) {
@@ -129,7 +129,7 @@ bool Client::over() const {
   return connections_[0].over && connections_[1].over;
 }
 
-/// Both are open, or there is no sound. The face tells so first.
+/// Both are open, or the first message of the face says that there is no sound.
 bool Client::ready() const {
   return connections_[0].open && (connections_[1].open || connections_[1].over);
 }

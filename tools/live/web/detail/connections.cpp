@@ -57,9 +57,9 @@ int Server::handle(lws* wsi, lws_callback_reasons reason, const char* in, std::s
   switch (reason) {
     case LWS_CALLBACK_FILTER_NETWORK_CONNECTION:  // `in` is the handle
       entering_ = peer_of(int(reinterpret_cast<std::intptr_t>(in)));
-      return visitors_.may_enter(entering_) ? 0 : -1;
+      return limiter_.may_enter(entering_) ? 0 : -1;
     case LWS_CALLBACK_SERVER_NEW_CLIENT_INSTANTIATED:
-      visitors_.enter(wsi, entering_, Visitors::Clock::now());
+      limiter_.enter(wsi, entering_, ConnectionLimiter::Clock::now());
       disconnect_overdue();
       return 0;
     case LWS_CALLBACK_HTTP:
@@ -99,23 +99,23 @@ int Server::handle(lws* wsi, lws_callback_reasons reason, const char* in, std::s
       return 0;
     case LWS_CALLBACK_WSI_DESTROY:
       leave(wsi);
-      visitors_.leave(wsi);
-      viewers_ = visitors_.viewers();
+      limiter_.leave(wsi);
+      viewers_ = limiter_.viewers();
       return 0;
     default:
       return 0;
   }
 }
 
-/// What a path leads to. Resources lie below the paths of stages.
+/// What a path leads to. Resources lie below the paths of broadcasts.
 Server::Place Server::place_of(const std::string& path) const {
   const std::lock_guard lock(mutex_);
-  auto found = stages_.find("");
-  if (found != stages_.end()) return {found->second, path, resource_of(path)};
+  auto found = broadcasts_.find("");
+  if (found != broadcasts_.end()) return {found->second, path, resource_of(path)};
   std::size_t slash = path.rfind('/');
   for (; slash != std::string::npos && slash > 0; slash = path.rfind('/', slash - 1)) {
-    found = stages_.find(std::string_view(path).substr(0, slash));
-    if (found == stages_.end()) continue;
+    found = broadcasts_.find(std::string_view(path).substr(0, slash));
+    if (found == broadcasts_.end()) continue;
     return {found->second, path.substr(slash), resource_of(path.substr(slash))};
   }
   return {};
@@ -123,16 +123,16 @@ Server::Place Server::place_of(const std::string& path) const {
 
 bool Server::exists(const Place& place) const {
   const Resource resource = place.resource;
-  if (!place.stage) return false;
+  if (!place.broadcast) return false;
   if (documents_.contains(place.path) || resource == Resource::info) return true;
   if (resource == Resource::face || resource == Resource::faps) return true;
   return (resource == Resource::audio || resource == Resource::talk) &&
-         place.stage->sample_rate() > 0;
+         place.broadcast->sample_rate() > 0;
 }
 
 /// Why it is not answered, whatever it asks for; 0: it is.
 unsigned Server::objection(lws* wsi, const Request& request) {
-  if (!visitors_.ask(wsi, Visitors::Clock::now())) return 429;
+  if (!limiter_.ask(wsi, ConnectionLimiter::Clock::now())) return 429;
   if (request.host.empty()) return HTTP_STATUS_BAD_REQUEST;
   return names_.contains(request.host) ? 0 : 421;
 }
@@ -157,13 +157,13 @@ bool Server::may_deflate(lws* wsi) const {
 /// A place in the hub. False: all are taken.
 bool Server::admit(lws* wsi, Session& session) {
   const Channel channel = channel_of(session);
-  if (!visitors_.watch(wsi, channel == Channel::audio)) return false;
-  viewers_ = visitors_.viewers();
-  const std::optional<ClientId> client = session.stage->add(channel);
+  if (!limiter_.watch(wsi, channel == Channel::audio)) return false;
+  viewers_ = limiter_.viewers();
+  const std::optional<ClientId> client = session.broadcast->add(channel);
   if (!client) return false;
   session.client = *client;
   session.open = true;
-  session.stage->watching.insert(wsi);
+  session.broadcast->watching.insert(wsi);
   return true;
 }
 
@@ -174,7 +174,7 @@ int Server::transaction_over(lws* wsi) {
       session != sessions_.end() && session->second.exchange && session->second.exchange->last;
   leave(wsi);
   if (last) return -1;
-  visitors_.answered(wsi, Visitors::Clock::now());
+  limiter_.answered(wsi, ConnectionLimiter::Clock::now());
   return lws_http_transaction_completed(wsi) != 0 ? -1 : 0;
 }
 
@@ -205,8 +205,9 @@ int Server::request(lws* wsi) {
 /// What there is as a whole.
 int Server::serve(lws* wsi, const Request& request, const Place& place) {
   const Resource resource = place.resource;
-  Session session{.resource = resource, .stage = place.stage};
-  session.document = resource == Resource::info ? place.stage->info() : documents_.at(place.path);
+  Session session{.resource = resource, .broadcast = place.broadcast};
+  session.document =
+      resource == Resource::info ? place.broadcast->info() : documents_.at(place.path);
   const Document& document = *session.document;
   session.packed = !document.packed.empty() && takes_gzip(request.accept_encoding);
   if (resource == Resource::page && peer_connections_) peer_connections_->expect();
@@ -234,7 +235,7 @@ int Server::talk(lws* wsi, const Request& request, const Place& place) {
   if (request.method == Request::Method::head) return send_header(wsi, answer), -1;
   Session& session = sessions_[wsi];
   session.resource = Resource::talk;
-  session.stage = place.stage;
+  session.broadcast = place.broadcast;
   if (!admit(wsi, session)) return refuse(wsi, request, HTTP_STATUS_SERVICE_UNAVAILABLE);
   if (!send_header(wsi, answer)) return -1;
   lws_set_timeout(wsi, NO_PENDING_TIMEOUT, 0);
@@ -255,7 +256,7 @@ int Server::upgrade(lws* wsi) {
   leave(wsi);
   Session& session = sessions_[wsi];
   session.resource = place.resource;
-  session.stage = place.stage;
+  session.broadcast = place.broadcast;
   session.small = request.asks("binary");
   return admit(wsi, session) ? 0 : refused(HTTP_STATUS_SERVICE_UNAVAILABLE);
 }
@@ -269,7 +270,7 @@ int Server::write_body(lws* wsi, Session& session) {
     return -1;
   }
   session.at += size;
-  visitors_.progress(wsi, Visitors::Clock::now());
+  limiter_.progress(wsi, ConnectionLimiter::Clock::now());
   if (last) return transaction_over(wsi);
   lws_callback_on_writable(wsi);
   return 0;
@@ -282,7 +283,7 @@ bool Server::send_message(lws* wsi, Session& session, const Message& message) {
   }
   std::vector<std::uint8_t> bytes = message.bytes;
   if (message.entry) {  // a segment: the first one begins at 0, for players that wait for it
-    const std::int64_t time = std::llround(message.time * session.stage->sample_rate());
+    const std::int64_t time = std::llround(message.time * session.broadcast->sample_rate());
     if (session.begin < 0) session.begin = time;
     media::set_segment_time(bytes, time - session.begin);
   }
@@ -290,7 +291,7 @@ bool Server::send_message(lws* wsi, Session& session, const Message& message) {
 }
 
 int Server::write_message(lws* wsi, Session& session) {
-  const auto [message, more, over] = session.stage->next(session.client);
+  const auto [message, more, over] = session.broadcast->next(session.client);
   if (message && !send_message(wsi, session, *message)) return -1;
   if (!message && over) {
     std::array<unsigned char, 4> reason{'e', 'n', 'd', 0};
@@ -303,12 +304,12 @@ int Server::write_message(lws* wsi, Session& session) {
   return 0;
 }
 
-void Server::look_at(const Stage& stage, Hub::Clock::time_point since) {
-  for (lws* wsi : stage.watching) {
-    const Stage::Need need = stage.need_of(sessions_[wsi].client, since);
-    if (need == Stage::Need::to_go) {
+void Server::look_at(const Broadcast& broadcast, Hub::Clock::time_point since) {
+  for (lws* wsi : broadcast.watching) {
+    const Broadcast::Need need = broadcast.need_of(sessions_[wsi].client, since);
+    if (need == Broadcast::Need::to_go) {
       lws_set_timeout(wsi, PENDING_TIMEOUT_CLOSE_SEND, LWS_TO_KILL_ASYNC);
-    } else if (need == Stage::Need::to_write) {
+    } else if (need == Broadcast::Need::to_write) {
       lws_callback_on_writable(wsi);
     }
   }
@@ -317,23 +318,23 @@ void Server::look_at(const Stage& stage, Hub::Clock::time_point since) {
 void Server::look_around() {
   const auto patience = std::chrono::microseconds(std::int64_t(options_.stall_seconds * 1e6));
   const auto since = Hub::Clock::now() - patience;
-  std::set<std::shared_ptr<Stage>> stages;  // also those that are over
+  std::set<std::shared_ptr<Broadcast>> broadcasts;  // also those that are over
   for (const auto& [wsi, session] : sessions_) {
-    if (session.open) stages.insert(session.stage);
+    if (session.open) broadcasts.insert(session.broadcast);
   }
-  for (const auto& stage : stages) look_at(*stage, since);
+  for (const auto& broadcast : broadcasts) look_at(*broadcast, since);
 }
 
 /// Something was published, is over, or was answered.
 void Server::look_at_news() {
-  std::vector<std::shared_ptr<Stage>> stages;
+  std::vector<std::shared_ptr<Broadcast>> broadcasts;
   {
     const std::lock_guard lock(mutex_);
-    stages.swap(touched_);
+    broadcasts.swap(touched_);
   }
-  std::sort(stages.begin(), stages.end());
-  stages.erase(std::unique(stages.begin(), stages.end()), stages.end());
-  for (const auto& stage : stages) look_at(*stage, {});
+  std::sort(broadcasts.begin(), broadcasts.end());
+  broadcasts.erase(std::unique(broadcasts.begin(), broadcasts.end()), broadcasts.end());
+  for (const auto& broadcast : broadcasts) look_at(*broadcast, {});
   hand_out_answers();
   std::vector<std::pair<std::shared_ptr<Exchange>, ServerReply>> given;
   {
@@ -347,7 +348,7 @@ void Server::look_at_news() {
   }
 }
 
-/// Looks after those who do nothing, again and again.
+/// Disconnects idle connections at intervals.
 void Server::keep_looking() {
   const auto look = [](lws_sorted_usec_list_t* entry) {
     // The entry is the first member.
@@ -359,7 +360,7 @@ void Server::keep_looking() {
 }
 
 void Server::disconnect_overdue() {
-  for (const Visitors::Key key : visitors_.overdue(Visitors::Clock::now())) {
+  for (const ConnectionLimiter::Key key : limiter_.overdue(ConnectionLimiter::Clock::now())) {
     auto* wsi = const_cast<lws*>(static_cast<const lws*>(key));
     lws_set_timeout(wsi, PENDING_TIMEOUT_CLOSE_SEND, LWS_TO_KILL_ASYNC);
   }
@@ -371,8 +372,8 @@ void Server::leave(lws* wsi) {
   Session& session = found->second;
   if (session.exchange) session.exchange->wsi = nullptr;
   if (session.open) {
-    session.stage->watching.erase(wsi);
-    session.stage->remove(session.client, channel_of(session));
+    session.broadcast->watching.erase(wsi);
+    session.broadcast->remove(session.client, channel_of(session));
   }
   sessions_.erase(found);
 }

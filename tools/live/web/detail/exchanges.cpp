@@ -24,7 +24,7 @@ int Server::begin_exchange(lws* wsi, const Request& request) {
   auto exchange = std::make_shared<Exchange>();
   exchange->wsi = wsi;
   exchange->with_body = request.method != Request::Method::head;
-  // libwebsockets waits for a body where no length is told; there is none.
+  // Without a length libwebsockets would wait for a body.
   exchange->last = !request.is_read() && !request.has_length;
   exchange->request = {request.verb, request.path, request.authorization, {}};
   sessions_[wsi].exchange = std::move(exchange);
@@ -38,7 +38,7 @@ int Server::take_body(lws* wsi, const char* bytes, std::size_t size) {
   std::string& body = session->second.exchange->request.body;
   if (body.size() + size > most_body_) return -1;
   body.append(bytes, size);
-  visitors_.progress(wsi, Visitors::Clock::now());
+  limiter_.progress(wsi, ConnectionLimiter::Clock::now());
   return 0;
 }
 
@@ -63,7 +63,7 @@ int Server::write_reply(lws* wsi, Session& session) {
   Answer answer{.status = reply.status, .type = reply.type, .size = reply.body.size()};
   const bool with_body = session.exchange->with_body && !reply.body.empty();
   if (!send_header(wsi, answer)) return -1;
-  visitors_.progress(wsi, Visitors::Clock::now());
+  limiter_.progress(wsi, ConnectionLimiter::Clock::now());
   if (!with_body) return transaction_over(wsi);
   auto document = std::make_shared<Document>();
   document->bytes = reply.body;

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 
 namespace animeme::web {
 namespace {
@@ -75,7 +74,7 @@ OwnNames::OwnNames(const WebAddress& address, const std::vector<std::string>& mo
       const std::string whole(name.data()), first = whole.substr(0, whole.find('.'));
       add(whole);
       add(first);
-      add(first + ".local");  // as mDNS tells it
+      add(first + ".local");  // its mDNS name
     }
   }
   for (const std::string& name : more) {

@@ -50,7 +50,7 @@ bool has_changed(int fap, const fap::Frame& from, const fap::Frame& to) {
 }  // namespace
 
 std::vector<std::uint8_t> PlaneWriter::write(const Plane& plane, const fap::Frame& face) {
-  // What is gone, or lies in front of the plane before, cannot be told as a change.
+  // A removed value, or an earlier plane, cannot be sent as a change.
   const bool gone = (before_.mask & ~face.mask).any();
   const bool whole = plane.intra || !begun_ || gone || plane.time < time_;
   if (whole) {

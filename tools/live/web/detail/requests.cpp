@@ -6,7 +6,6 @@
 #include <array>
 #include <charconv>
 #include <cstring>
-#include <string_view>
 
 namespace animeme::web {
 namespace {

@@ -43,7 +43,7 @@ struct Request {
   bool has_origin = false;
   std::string verb;  ///< "GET", also for HEAD; "POST", "PUT", "DELETE"; empty: another method
   bool has_length = false;  ///< it says how many bytes are to follow
-  std::int64_t body = 0;    ///< these; -1: nobody knows how many
+  std::int64_t body = 0;    ///< in bytes; -1: unknown
   std::string authorization;
   std::string path, query, host, origin, accept_encoding, if_none_match, content_type;
 

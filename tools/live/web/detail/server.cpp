@@ -48,7 +48,7 @@ std::string frames_of(const WebOptions& options) {
 
 /// Files that may be open: two connections a viewer, those that pass, and others.
 Result<unsigned> handles_for(int viewers) {
-  const auto wanted = unsigned(2 * viewers + int(Visitors::kMostPassing) + kSpareHandles);
+  const auto wanted = unsigned(2 * viewers + int(ConnectionLimiter::kMostPassing) + kSpareHandles);
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= wanted) return wanted;
   return make_error(Code::invalid_argument,
@@ -66,7 +66,7 @@ Server::Server(const WebAddress& address, const ServerOptions& options, ServerHa
       names_(address, options_.host_names),
       frames_(frames_of(options_)),
       documents_(documents_of(options_)),
-      visitors_({options_.max_clients, options_.per_address, options_.stall_seconds}) {
+      limiter_({options_.max_clients, options_.per_address, options_.stall_seconds}) {
   timer_.server = this;
 }
 
@@ -118,47 +118,47 @@ Result<std::unique_ptr<Server>> Server::listen(const WebAddress& address,
   return server;
 }
 
-std::shared_ptr<Stage> Server::make_stage(int sample_rate, std::function<void()> joined) {
-  const auto touched = [this](std::shared_ptr<Stage> stage) {
+std::shared_ptr<Broadcast> Server::make_broadcast(int sample_rate, std::function<void()> joined) {
+  const auto touched = [this](std::shared_ptr<Broadcast> broadcast) {
     bool first = false;
     {
       const std::lock_guard lock(mutex_);
       first = touched_.empty();
-      touched_.push_back(std::move(stage));
+      touched_.push_back(std::move(broadcast));
     }
     if (first) service_.wake();
   };
-  return std::make_shared<Stage>(sample_rate, options_.client_bytes, options_.catch_up, touched,
-                                 std::move(joined));
+  return std::make_shared<Broadcast>(sample_rate, options_.client_bytes, options_.catch_up, touched,
+                                     std::move(joined));
 }
 
-bool Server::open(const std::string& path, const std::shared_ptr<Stage>& stage) {
+bool Server::open(const std::string& path, const std::shared_ptr<Broadcast>& broadcast) {
   const std::lock_guard lock(mutex_);
-  return !finishing_ && stages_.try_emplace(path, stage).second;
+  return !finishing_ && broadcasts_.try_emplace(path, broadcast).second;
 }
 
 void Server::close(const std::string& path) {
-  std::shared_ptr<Stage> stage;
+  std::shared_ptr<Broadcast> broadcast;
   {
     const std::lock_guard lock(mutex_);
-    const auto found = stages_.find(path);
-    if (found == stages_.end()) return;
-    stage = std::move(found->second);
-    stages_.erase(found);
+    const auto found = broadcasts_.find(path);
+    if (found == broadcasts_.end()) return;
+    broadcast = std::move(found->second);
+    broadcasts_.erase(found);
   }
-  stage->end();
+  broadcast->end();
 }
 
 void Server::finish() {
-  std::vector<std::shared_ptr<Stage>> stages;
+  std::vector<std::shared_ptr<Broadcast>> broadcasts;
   {
     const std::lock_guard lock(mutex_);
     finishing_ = true;
-    for (const auto& [path, stage] : stages_) stages.push_back(stage);
+    for (const auto& [path, broadcast] : broadcasts_) broadcasts.push_back(broadcast);
   }
-  for (const auto& stage : stages) stage->end();
+  for (const auto& broadcast : broadcasts) broadcast->end();
   const auto patience = Hub::Clock::now() + kGoodbye;
-  for (const auto& stage : stages) stage->wait_until_empty(patience);
+  for (const auto& broadcast : broadcasts) broadcast->wait_until_empty(patience);
   stop();
 }
 

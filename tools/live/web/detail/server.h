@@ -12,11 +12,11 @@
 
 #include "fap/result.h"
 #include "tools/live/web/detail/address.h"
+#include "tools/live/web/detail/broadcast.h"
+#include "tools/live/web/detail/connection_limiter.h"
 #include "tools/live/web/detail/headers.h"
 #include "tools/live/web/detail/requests.h"
 #include "tools/live/web/detail/service.h"
-#include "tools/live/web/detail/stage.h"
-#include "tools/live/web/detail/visitors.h"
 #include "tools/live/web/web.h"
 #include "tools/live/web/web_server.h"
 
@@ -40,7 +40,7 @@ struct Answers {
 /// One connection, from its first request on.
 struct Session {
   Resource resource = Resource::none;
-  std::shared_ptr<Stage> stage;  // whose resource it is
+  std::shared_ptr<Broadcast> broadcast;  // whose resource it is
   std::shared_ptr<Exchange> exchange;
   std::optional<ServerReply> reply;  // of it
   bool small = false;                // /faps?binary
@@ -59,8 +59,8 @@ struct Session {
 
 class Server {
  public:
-  /// Listens. `handler`: for what is no resource of a stage; nothing: that is refused. Errors: io,
-  /// invalid_argument (more viewers than files may be open).
+  /// Listens. `handler`: for what is no resource of a broadcast; nothing: that is refused. Errors:
+  /// io, invalid_argument (more viewers than files may be open).
   static Result<std::unique_ptr<Server>> listen(const WebAddress& address,
                                                 const ServerOptions& options,
                                                 ServerHandler handler);
@@ -79,11 +79,11 @@ class Server {
   }
 
   // All of these may be called from any thread.
-  /// A stage that nobody sees yet. `joined` may be nothing.
-  std::shared_ptr<Stage> make_stage(int sample_rate, std::function<void()> joined);
+  /// A broadcast without a path yet. `joined` may be empty.
+  std::shared_ptr<Broadcast> make_broadcast(int sample_rate, std::function<void()> joined);
   /// Its resources lie below `path`, "" for all paths. False: there is one already.
-  bool open(const std::string& path, const std::shared_ptr<Stage>& stage);
-  /// Nobody finds it any more; its viewers get what waits for them and are told.
+  bool open(const std::string& path, const std::shared_ptr<Broadcast>& broadcast);
+  /// Removes it; its viewers get the queued messages and the end.
   void close(const std::string& path);
   int viewers() const { return viewers_; }
 
@@ -96,7 +96,7 @@ class Server {
   static int callback(lws* wsi, lws_callback_reasons reason, void* user, void* in, size_t size);
   int handle(lws* wsi, lws_callback_reasons reason, const char* in, std::size_t size);
   struct Place {
-    std::shared_ptr<Stage> stage;
+    std::shared_ptr<Broadcast> broadcast;
     std::string path;  // below it
     Resource resource = Resource::none;
   };
@@ -126,7 +126,7 @@ class Server {
   int transaction_over(lws* wsi);
   bool send_message(lws* wsi, Session& session, const Message& message);
   int write_message(lws* wsi, Session& session);
-  void look_at(const Stage& stage, Hub::Clock::time_point since);
+  void look_at(const Broadcast& broadcast, Hub::Clock::time_point since);
   void look_around();
   void look_at_news();
   void keep_looking();
@@ -145,8 +145,8 @@ class Server {
   const std::shared_ptr<Answers> answers_ = std::make_shared<Answers>();
 
   mutable std::mutex mutex_;  // for what follows
-  std::map<std::string, std::shared_ptr<Stage>, std::less<>> stages_;
-  std::vector<std::shared_ptr<Stage>> touched_;  // since the thread has looked
+  std::map<std::string, std::shared_ptr<Broadcast>, std::less<>> broadcasts_;
+  std::vector<std::shared_ptr<Broadcast>> touched_;  // since the thread has looked
   bool finishing_ = false;
   std::map<std::uint64_t, PeerAnswer> peer_answers_;  // by ticket
 
@@ -157,7 +157,7 @@ class Server {
   } timer_;
   std::map<lws*, Session> sessions_;
   std::uint64_t tickets_ = 0;
-  Visitors visitors_;
+  ConnectionLimiter limiter_;
   std::string entering_;  // address of the connection that is just being accepted
 
   std::atomic<int> viewers_ = 0;

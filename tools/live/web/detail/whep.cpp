@@ -56,7 +56,7 @@ int Server::whep(lws* wsi, const Request& request) {
   if (!request.content_type.starts_with("application/sdp")) {
     return reply(HTTP_STATUS_UNSUPPORTED_MEDIA_TYPE, "An offer is application/sdp.\n");
   }
-  if (visitors_.viewers() + peer_connections_->stats().receivers >= options_.max_clients) {
+  if (limiter_.viewers() + peer_connections_->stats().receivers >= options_.max_clients) {
     return reply(HTTP_STATUS_SERVICE_UNAVAILABLE, "All places are taken (--max-clients).\n");
   }
   leave(wsi);

@@ -1,7 +1,7 @@
 // The page itself. Other scripts may take part by window.animeme:
 //   onFrame(values, time)  is called for each plane when it is due; values by FAP number
 //   onMessage(message)     what the server tells in words
-//   stage                  the element of the face; setView(element) replaces what it shows
+//   viewport               the element of the face; setView(element) replaces what it shows
 //   session                frames, clock(), latency(), buffered(), gaps
 //   asked, flag(name)      parameters of the address; README.md of tools/live/web has them
 (() => {
@@ -26,8 +26,8 @@
 
   const animeme = window.animeme = {
     onFrame: undefined, onMessage: undefined,
-    stage: element('stage'),
-    setView(view) { animeme.stage.replaceChildren(view); },
+    viewport: element('viewport'),
+    setView(view) { animeme.viewport.replaceChildren(view); },
     asked, flag,
     state: 'idle', shown: 0, time: 0, offset: 0, blocked: false,
   };

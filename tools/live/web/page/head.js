@@ -1,7 +1,7 @@
 
 // A head in three dimensions in place of the schematic face. HeadView and readModel stand in front of
 // this, in the same script.
-const before = [...animeme.stage.childNodes];
+const before = [...animeme.viewport.childNodes];
 try {
   const load = async (path) => {
     const answer = await fetch(path);
@@ -47,7 +47,7 @@ try {
   };
   list.addEventListener('change', () => animeme.showHead(Number(list.value)));
 } catch (problem) {
-  animeme.stage.replaceChildren(...before);
+  animeme.viewport.replaceChildren(...before);
   document.getElementById('face').hidden = false;
   console.info(`no head: ${problem.message}`);
 }

@@ -119,8 +119,7 @@ GstPeer::~GstPeer() {
   if (bin_ != nullptr) g_signal_handlers_disconnect_by_data(bin_, this);
   if (pipeline_) gst_element_set_state(pipeline_.get(), GST_STATE_NULL);
   channels_.clear();
-  pipeline_
-      .reset();  // promises that are still open are let go of here, while there is somebody to tell
+  pipeline_.reset();  // answers the open promises while their callbacks are alive
   describe("", "no description was ready in time");
 }
 

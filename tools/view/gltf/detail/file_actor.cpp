@@ -68,7 +68,7 @@ FileActor actor_by_names(const File& file, const std::vector<Node>& nodes, Mouth
 Result<FileActor> file_actor(std::span<const std::uint8_t> bytes, const File& file,
                              const std::vector<Node>& nodes, const ReadOptions& options) {
   ReadOptions reading = options;
-  reading.vertices = 0;  // nobody sees its colours
+  reading.vertices = 0;  // its colours are not used
   Result<MovedHead> moved = read_moved_head(bytes, reading);
   std::string reason;
   FileActor actor;

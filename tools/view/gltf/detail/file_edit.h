@@ -25,7 +25,7 @@ class FileEdit {
   /// `bytes` have to outlive the result. Errors: those of chunks_of() and open_json().
   static Result<FileEdit> open(std::span<const std::uint8_t> bytes, const ReadLimits& limits);
 
-  /// What the JSON said before.
+  /// The original JSON.
   const File& file() const { return file_; }
   /// True for .glb and .vrm.
   bool is_binary() const { return binary_; }

@@ -31,14 +31,14 @@ class HeadReader {
     if (!pieces) return pieces.error();
     pieces_ = std::move(*pieces);
     if (options_.vertices > 0) refine(pieces_, options_.vertices);
-    const bool dressed =
+    const bool with_materials =
         keep_materials && std::any_of(pieces_.begin(), pieces_.end(),
                                       [](const RawPiece& piece) { return piece.paint->textured; });
     for (RawPiece& piece : pieces_) {
-      if (dressed) dress(piece);
+      if (with_materials) add_corners(piece);
       paint(piece);
     }
-    if (dressed) source_.coats = paints.take_coats();
+    if (with_materials) source_.materials = paints.take_materials();
     drop_unseen();
     if (pieces_.empty()) {
       return make_error(Code::not_found, "there is no triangle to show in the file");
@@ -71,7 +71,7 @@ class HeadReader {
   void drop_unseen() {
     std::set<std::string> names;
     std::erase_if(pieces_, [&](const RawPiece& piece) {
-      if (!piece.veils.empty()) return false;
+      if (!piece.transparent.empty()) return false;
       if (!piece.triangles.empty() && !piece.paint->see_through) return false;
       names.insert(piece.name);
       return true;
@@ -82,7 +82,7 @@ class HeadReader {
   }
 
   // Programs cut a mesh where its material changes; the light on the skin should not. Other parts
-  // stay apart: what they are is told by the name of their material.
+  // stay apart: the name of their material identifies them.
   void join_primitives() {
     std::vector<RawPiece> joined;
     for (RawPiece& piece : pieces_) {
@@ -108,13 +108,14 @@ class HeadReader {
     to.numbers.insert(to.numbers.end(), from.numbers.begin(), from.numbers.end());
     to.neck_weights.insert(to.neck_weights.end(), from.neck_weights.begin(),
                            from.neck_weights.end());
-    // The coats are those of triangles, then of veils.
-    const auto solid = std::ptrdiff_t(from.triangles.size() * (from.coats.empty() ? 0 : 1));
-    to.coats.insert(to.coats.begin() + std::ptrdiff_t(to.coats.empty() ? 0 : to.triangles.size()),
-                    from.coats.begin(), from.coats.begin() + solid);
-    to.coats.insert(to.coats.end(), from.coats.begin() + solid, from.coats.end());
-    for (const auto& [more, all] :
-         {std::pair(&from.triangles, &to.triangles), std::pair(&from.veils, &to.veils)}) {
+    // The materials are those of triangles, then of transparent ones.
+    const auto solid = std::ptrdiff_t(from.triangles.size() * (from.materials.empty() ? 0 : 1));
+    to.materials.insert(
+        to.materials.begin() + std::ptrdiff_t(to.materials.empty() ? 0 : to.triangles.size()),
+        from.materials.begin(), from.materials.begin() + solid);
+    to.materials.insert(to.materials.end(), from.materials.begin() + solid, from.materials.end());
+    for (const auto& [more, all] : {std::pair(&from.triangles, &to.triangles),
+                                    std::pair(&from.transparent, &to.transparent)}) {
       for (const head::Triangle& t : *more) {
         all->push_back({t[0] + first, t[1] + first, t[2] + first});
       }
@@ -263,7 +264,7 @@ class HeadReader {
       out.mesh.triangles = std::move(piece.triangles);
       out.mesh.corners = std::move(piece.corners);
       out.mesh.facets = std::move(piece.facets);
-      out.mesh.coats = std::move(piece.coats);
+      out.mesh.materials = std::move(piece.materials);
       bool any = false;
       for (const Colour& colour : piece.colours) {
         // Means of known and unknown colours are unknown, too.

@@ -46,7 +46,7 @@ class OpenFile {
   bool has_size() const { return S_ISREG(status_.st_mode); }
   std::size_t size() const { return std::size_t(status_.st_size); }
   /// Appends until there are `wanted` bytes or the file ends. Pipes are waited for only while
-  /// somebody writes into them.
+  /// another process writes into them.
   Result<void> read(Bytes& bytes, std::size_t wanted) {
     constexpr std::size_t kBlock = 1 << 20;
     if (!has_size()) ::fcntl(file_, F_SETFL, 0);

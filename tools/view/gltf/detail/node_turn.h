@@ -13,7 +13,7 @@ using Quaternion = std::array<double, 4>;  ///< x, y, z, w; length 1
 /// A part of a rotation about the same axis: all of it at 1.
 Quaternion share_of(const Quaternion& turn, double share);
 
-/// Where a node stands in its parent, as glTF has it.
+/// The local transform of a node.
 struct LocalPlace {
   std::array<double, 3> translation = {0, 0, 0};
   Quaternion rotation = {0, 0, 0, 1};

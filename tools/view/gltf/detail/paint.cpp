@@ -78,7 +78,7 @@ bool has_texture(const RawPiece& piece) {
   return piece.paint->picture && piece.uvs.size() == piece.positions.size();
 }
 
-void dress(RawPiece& piece) {
+void add_corners(RawPiece& piece) {
   const bool has_uvs = piece.uvs.size() == piece.positions.size();
   const bool has_colours = piece.colours.size() == piece.positions.size();
   for (std::uint32_t v = 0; v < piece.positions.size(); ++v) {
@@ -90,28 +90,29 @@ void dress(RawPiece& piece) {
     const Colour& c = piece.colours[v];
     corner.tint = {byte_of(c.rgb.x), byte_of(c.rgb.y), byte_of(c.rgb.z), byte_of(c.alpha)};
   }
-  piece.coats.assign(piece.triangles.size(), std::uint16_t(piece.paint->coat));
+  piece.materials.assign(piece.triangles.size(), std::uint16_t(piece.paint->material));
 }
 
 void paint(RawPiece& piece) {
   const bool textured = has_texture(piece);
   const Paint& paint = *piece.paint;
-  const bool dressed = !piece.corners.empty();
+  const bool with_materials = !piece.corners.empty();
   if (paint.alpha != AlphaMode::opaque) {
     std::erase_if(piece.triangles, [&](const Triangle& t) {
       const Opacity found = opacity(piece, t, textured);
       if (found.mean >= paint.cutoff) return false;
       const float nothing = paint.alpha == AlphaMode::mask ? paint.cutoff : 1 / 255.0f;
-      if (dressed && found.most >= nothing) piece.veils.push_back(t);
+      if (with_materials && found.most >= nothing) piece.transparent.push_back(t);
       return true;
     });
   }
-  if (dressed && paint.see_through) {
-    piece.veils.insert(piece.veils.end(), piece.triangles.begin(), piece.triangles.end());
+  if (with_materials && paint.see_through) {
+    piece.transparent.insert(piece.transparent.end(), piece.triangles.begin(),
+                             piece.triangles.end());
     piece.triangles.clear();
   }
-  piece.coats.resize(dressed ? piece.triangles.size() + piece.veils.size() : 0,
-                     std::uint16_t(paint.coat));
+  piece.materials.resize(with_materials ? piece.triangles.size() + piece.transparent.size() : 0,
+                         std::uint16_t(paint.material));
   if (!textured && piece.colours.empty() && paint.factor.rgb == Vec3{1, 1, 1}) {
     piece.colours.assign(piece.positions.size(), {head::kNoColour, 1});
     return;

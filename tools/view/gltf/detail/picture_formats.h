@@ -1,4 +1,4 @@
-// The three formats of pictures, one file each; picture_decoder.cpp tells them apart.
+// The three image formats, one file each; picture_decoder.cpp detects the format.
 #pragma once
 
 #include "tools/view/gltf/detail/picture_decoder.h"

@@ -41,11 +41,12 @@ struct RawPiece {
   std::vector<float> neck_weights;  ///< see head::Piece
   bool on_jaw = false;              ///< some of it hangs on the jaw
   std::vector<PieceMorph> morphs;   ///< by shape
-  /// From dress() on, of heads that are drawn with their materials. Corner::vertex is the vertex.
+  /// From add_corners() on, of heads that are drawn with their materials. Corner::vertex is the
+  /// vertex.
   std::vector<head::Corner> corners;
-  std::vector<head::Triangle> veils;   ///< triangles that are mostly transparent
-  std::vector<std::uint16_t> coats;    ///< of triangles, then of veils
-  std::vector<head::Triangle> facets;  ///< after weld(), in place of veils: see head::Mesh
+  std::vector<head::Triangle> transparent;  ///< triangles that are mostly transparent
+  std::vector<std::uint16_t> materials;     ///< of triangles, then of transparent ones
+  std::vector<head::Triangle> facets;  ///< after weld(), in place of `transparent`: see head::Mesh
   /// Numbers in the file: through the primitives of the node's mesh, of each the vertices that have
   /// a triangle, as Blender counts them. kNewVertex: divided triangles made it.
   std::vector<std::uint32_t> numbers;

@@ -2,11 +2,125 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
-#include "tools/view/gltf/detail/material.h"
+#include "fap/head/srgb.h"
 
 namespace animeme::gltf {
+
 namespace {
+
+// Gives the texture that a material names.
+using TextureOf = std::function<head::Texture(const Json& info, TexelKind kind)>;
+
+using head::Material;
+using head::Vec3;
+
+Vec3 three_or(const Json& value, Vec3 otherwise) {
+  const auto three = numbers(value, 3);
+  if (!three) return otherwise;
+  return {float((*three)[0]), float((*three)[1]), float((*three)[2])};
+}
+
+float share_or(const Json& value, double otherwise) {
+  return float(std::clamp(number_or(value, otherwise), 0.0, 1.0));
+}
+
+void add_mtoon(const Json& toon, const TextureOf& texture, Material& material) {
+  material.shading = head::Shading::toon;
+  material.shade = three_or(member(toon, "shadeColorFactor"), {0, 0, 0});
+  material.shade_texture = texture(member(toon, "shadeMultiplyTexture"), TexelKind::colour);
+  material.shade_shift =
+      float(std::clamp(number_or(member(toon, "shadingShiftFactor"), 0), -1.0, 1.0));
+  material.toony = share_or(member(toon, "shadingToonyFactor"), 0.9);
+  material.rim = three_or(member(toon, "parametricRimColorFactor"), {0, 0, 0});
+  material.rim_power =
+      float(std::clamp(number_or(member(toon, "parametricRimFresnelPowerFactor"), 5), 0.0, 100.0));
+  material.rim_lift = share_or(member(toon, "parametricRimLiftFactor"), 0);
+}
+
+Vec3 gamma_colour(const Json& properties, const char* name, Vec3 otherwise) {
+  const auto four = numbers(member(properties, "vectorProperties", name), 4);
+  if (!four) return otherwise;
+  return head::linear_of_srgb(Vec3{float((*four)[0]), float((*four)[1]), float((*four)[2])});
+}
+
+// VRM 0.x keeps what Unity's shader has; how its numbers become those of VRM 1.0 is told by VRM's
+// own notes on migration.
+void add_old_mtoon(const Json& properties, const TextureOf& texture, Material& material) {
+  const auto number = [&](const char* name, double otherwise) {
+    return number_or(member(properties, "floatProperties", name), otherwise);
+  };
+  material.shading = head::Shading::toon;
+  material.factor.rgb = gamma_colour(properties, "_Color", {1, 1, 1});
+  material.shade = gamma_colour(properties, "_ShadeColor", {0.97f, 0.81f, 0.86f});
+  const Json& shade = member(properties, "textureProperties", "_ShadeTexture");
+  if (whole(shade)) material.shade_texture = texture(Json{{"index", shade}}, TexelKind::colour);
+  const double shift = std::clamp(number("_ShadeShift", 0), -1.0, 1.0);
+  const double toony = std::clamp(number("_ShadeToony", 0.9), 0.0, 1.0);
+  const double share = 0.5 + 0.5 * shift;
+  material.toony = float(toony * (1 - share) + share);
+  material.shade_shift = float(-shift) - (1 - material.toony);
+  material.rim = gamma_colour(properties, "_RimColor", {0, 0, 0});
+  material.rim_power = float(std::clamp(number("_RimFresnelPower", 1), 0.0, 100.0));
+  material.rim_lift = float(std::clamp(number("_RimLift", 0), 0.0, 1.0));
+}
+
+void add_metal(const Json& entry, const TextureOf& texture, Material& material) {
+  const Json& base = member(entry, "pbrMetallicRoughness");
+  const Json& old = member(entry, "extensions", "KHR_materials_pbrSpecularGlossiness");
+  if (base.is_null() && !old.is_null()) {
+    material.roughness = 1 - share_or(member(old, "glossinessFactor"), 1);
+    return;
+  }
+  // What says nothing of metal is none, whatever glTF has for it: nobody means a skin of steel.
+  material.metallic = share_or(member(base, "metallicFactor"), base.is_null() ? 0 : 1);
+  material.roughness = share_or(member(base, "roughnessFactor"), 1);
+  material.metal_rough = texture(member(base, "metallicRoughnessTexture"), TexelKind::value);
+}
+
+// All that is drawn of a material: glTF's own, unlit, specular, emissive strength, transmission
+// (as opacity), VRM 1.0's MToon and that of VRM 0.x. `paint` has its name, base and opacity.
+Material read_material(const File& file, std::size_t index, const Paint& paint,
+                       const TextureOf& texture) {
+  const Json& entry = file.entry("materials", index);
+  const Json& more = member(entry, "extensions");
+  Material material;
+  material.name = paint.name;
+  material.alpha_mode = paint.alpha;
+  material.cutoff = paint.cutoff;
+  material.double_sided = is_true(member(entry, "doubleSided"));
+  material.factor = paint.factor;
+  material.base = {paint.picture, paint.wrap_u, paint.wrap_v};
+  material.vertex_colours = !material.base && material.factor.rgb == Vec3{1, 1, 1};
+  add_metal(entry, texture, material);
+  material.specular = share_or(member(more, "KHR_materials_specular", "specularFactor"), 1);
+  material.normal = texture(member(entry, "normalTexture"), TexelKind::value);
+  material.normal_scale = float(number_or(member(entry, "normalTexture", "scale"), 1));
+  material.occlusion = texture(member(entry, "occlusionTexture"), TexelKind::value);
+  material.occlusion_strength = share_or(member(entry, "occlusionTexture", "strength"), 1);
+  material.emission =
+      three_or(member(entry, "emissiveFactor"), {0, 0, 0}) *
+      float(number_or(member(more, "KHR_materials_emissive_strength", "emissiveStrength"), 1));
+  if (material.emission != Vec3{}) {
+    material.emissive = texture(member(entry, "emissiveTexture"), TexelKind::colour);
+  }
+  const double glass =
+      number_or(member(more, "KHR_materials_transmission", "transmissionFactor"), 0);
+  if (glass > 0 && material.alpha_mode == AlphaMode::opaque) {
+    material.alpha_mode = AlphaMode::blend;
+    material.factor.alpha = float(1 - 0.9 * std::clamp(glass, 0.0, 1.0));
+  }
+  if (!member(more, "KHR_materials_unlit").is_null()) material.shading = head::Shading::unlit;
+  if (const Json& toon = member(more, "VRMC_materials_mtoon"); !toon.is_null()) {
+    add_mtoon(toon, texture, material);
+  }
+  const auto old = list(member(file.root, "extensions", "VRM"), "materialProperties");
+  if (index < old.size() && text_or(member(old[index], "shader")) == "VRM/MToon") {
+    add_old_mtoon(old[index], texture, material);
+  }
+  return material;
+}
 
 head::Wrap wrap_of(const Json& value) {
   switch (whole_or(value, 10497)) {
@@ -64,15 +178,15 @@ double Paint::texels(Uv a, Uv b) const {
   return std::sqrt(x * x + y * y);
 }
 
-const Paint& Paints::of(std::optional<std::size_t> material) {
-  if (!material) return white_;
-  const auto known = paints_.find(*material);
+const Paint& Paints::of(std::optional<std::size_t> index) {
+  if (!index) return white_;
+  const auto known = paints_.find(*index);
   if (known != paints_.end()) return known->second;
-  return paints_.emplace(*material, make(*material)).first->second;
+  return paints_.emplace(*index, make(*index)).first->second;
 }
 
-Paint Paints::make(std::size_t material) {
-  const Json& entry = file_.entry("materials", material);
+Paint Paints::make(std::size_t index) {
+  const Json& entry = file_.entry("materials", index);
   const Json& base = member(entry, "pbrMetallicRoughness");
   const Json& old = member(entry, "extensions", "KHR_materials_pbrSpecularGlossiness");
   const bool use_old = base.is_null() && !old.is_null();
@@ -90,15 +204,15 @@ Paint Paints::make(std::size_t material) {
   paint.see_through = number_or(member(glass, "transmissionFactor"), 0) > 0.5;
   add_base(base_texture_of(entry), paint);
   paint.textured = paint.picture != nullptr;
-  constexpr std::size_t kMostCoats = 65535;
-  if (!with_coats_ || coats_.size() >= kMostCoats) return paint;
-  paint.coat = coats_.size();
-  coats_.push_back(read_coat(file_, material, paint, [&](const Json& info, TexelKind kind) {
+  constexpr std::size_t kMostMaterials = 65535;
+  if (!with_materials_ || materials_.size() >= kMostMaterials) return paint;
+  paint.material = materials_.size();
+  materials_.push_back(read_material(file_, index, paint, [&](const Json& info, TexelKind kind) {
     return texture(info, kind, paint.name);
   }));
-  const head::Coat& coat = coats_.back();
-  paint.textured = coat.base || coat.normal || coat.metal_rough || coat.occlusion ||
-                   coat.emissive || coat.shade_texture;
+  const head::Material& material = materials_.back();
+  paint.textured = material.base || material.normal || material.metal_rough || material.occlusion ||
+                   material.emissive || material.shade_texture;
   return paint;
 }
 

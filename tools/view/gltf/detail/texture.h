@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "fap/head/coat.h"
+#include "fap/head/material.h"
 #include "tools/view/gltf/detail/pictures.h"
 
 namespace animeme::gltf {
@@ -27,8 +27,8 @@ struct Paint {
   AlphaMode alpha = AlphaMode::opaque;
   float cutoff = 0.5f;
   bool see_through = false;  ///< glass: transmission above one half
-  std::size_t coat = 0;      ///< index of Paints::coats()
-  bool textured = false;     ///< its coat has a picture
+  std::size_t material = 0;  ///< index of Paints::materials()
+  bool textured = false;     ///< its material has a picture
 
   /// Factor times texture; alpha is 1 if the material is opaque.
   Colour at(Uv place, double footprint) const;
@@ -41,28 +41,28 @@ struct Paint {
 /// Reads materials.
 class Paints {
  public:
-  /// Without `coats` base colours alone are read.
-  Paints(const File& file, const LoadFile& load, std::vector<std::string>& notes, bool coats)
-      : file_(file), notes_(notes), with_coats_(coats), pictures_(file, load, notes) {
-    coats_.emplace_back().vertex_colours = true;
+  /// Without `materials` base colours alone are read.
+  Paints(const File& file, const LoadFile& load, std::vector<std::string>& notes, bool materials)
+      : file_(file), notes_(notes), with_materials_(materials), pictures_(file, load, notes) {
+    materials_.emplace_back().vertex_colours = true;
   }
 
   /// That of a primitive's material; nothing: white.
-  const Paint& of(std::optional<std::size_t> material);
+  const Paint& of(std::optional<std::size_t> index);
   /// Of all materials that were asked for.
-  std::vector<head::Coat> take_coats() { return std::move(coats_); }
+  std::vector<head::Material> take_materials() { return std::move(materials_); }
 
  private:
-  Paint make(std::size_t material);
+  Paint make(std::size_t index);
   void add_base(const Json& info, Paint& paint);
   head::Texture texture(const Json& info, TexelKind kind, const std::string& material);
 
   const File& file_;
   std::vector<std::string>& notes_;
-  bool with_coats_;
+  bool with_materials_;
   Pictures pictures_;
   std::map<std::size_t, Paint> paints_;
-  std::vector<head::Coat> coats_;  // the first one is that of `white_`
+  std::vector<head::Material> materials_;  // the first one is that of `white_`
   Paint white_;
 };
 

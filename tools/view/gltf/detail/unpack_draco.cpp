@@ -2,7 +2,6 @@
 
 #include <new>
 
-#include "tools/view/gltf/detail/extensions.h"
 #include "tools/view/gltf/detail/unpack.h"
 
 namespace animeme::gltf {

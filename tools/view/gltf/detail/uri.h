@@ -1,4 +1,4 @@
-// What URIs of a file stand for.
+// Resolves the URIs of a file.
 #pragma once
 
 #include <cstdint>

@@ -47,7 +47,7 @@ std::vector<Key> keys_of(const RawPiece& piece) {
 std::vector<std::uint32_t> numbers_of(const RawPiece& piece,
                                       const std::vector<std::uint32_t>& first) {
   std::vector<std::uint32_t> numbers(first.size(), ~0u);
-  for (const auto* triangles : {&piece.triangles, &piece.veils}) {
+  for (const auto* triangles : {&piece.triangles, &piece.transparent}) {
     for (const head::Triangle& t : *triangles) {
       for (const std::uint32_t v : t) numbers[first[v]] = 0;
     }
@@ -65,7 +65,8 @@ class Facets {
   explicit Facets(const RawPiece& from) : from_(from), numbers_(from.corners.size(), ~0u) {}
 
   /// `t`: in the piece as it was; `to`: in `out`.
-  void add(const head::Triangle& t, const head::Triangle& to, std::uint16_t coat, RawPiece& out) {
+  void add(const head::Triangle& t, const head::Triangle& to, std::uint16_t material,
+           RawPiece& out) {
     head::Triangle facet{};
     for (std::size_t k = 0; k < 3; ++k) {
       std::uint32_t& number = numbers_[t[k]];
@@ -77,7 +78,7 @@ class Facets {
       facet[k] = number;
     }
     out.facets.push_back(facet);
-    out.coats.push_back(coat);
+    out.materials.push_back(material);
   }
 
  private:
@@ -143,13 +144,14 @@ void weld(RawPiece& piece) {
     }
   }
   Facets facets(piece);
-  for (std::size_t i = 0; i < piece.triangles.size() + piece.veils.size(); ++i) {
+  for (std::size_t i = 0; i < piece.triangles.size() + piece.transparent.size(); ++i) {
     const bool solid = i < piece.triangles.size();
-    const head::Triangle& t = solid ? piece.triangles[i] : piece.veils[i - piece.triangles.size()];
+    const head::Triangle& t =
+        solid ? piece.triangles[i] : piece.transparent[i - piece.triangles.size()];
     const head::Triangle to = {numbers[first[t[0]]], numbers[first[t[1]]], numbers[first[t[2]]]};
     if (to[0] == to[1] || to[1] == to[2] || to[2] == to[0]) continue;
     if (solid) out.triangles.push_back(to);
-    if (!piece.coats.empty()) facets.add(t, to, piece.coats[i], out);
+    if (!piece.materials.empty()) facets.add(t, to, piece.materials[i], out);
   }
   for (std::size_t v = 0; v < piece.numbers.size(); ++v) {
     const std::uint32_t to = numbers[first[v]];

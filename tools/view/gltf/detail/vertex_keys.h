@@ -13,7 +13,7 @@ namespace animeme::gltf {
 std::vector<std::uint32_t> first_alike(const RawPiece& piece);
 
 /// Joins vertices that are alike; colours become their mean, uvs are lost, corners stay as
-/// many and move along with what their vertex has become. Vertices without a triangle or veil go.
+/// many and move along with what their vertex has become. Vertices without a triangle go.
 /// Triangles that have become lines go.
 void weld(RawPiece& piece);
 

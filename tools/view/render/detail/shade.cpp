@@ -9,8 +9,8 @@ namespace animeme::render::detail {
 namespace {
 
 using head::dot;
-using head::Material;
 using head::normalised;
+using head::SurfaceKind;
 using head::Vec3;
 
 constexpr int kShownSteps = 4096;
@@ -36,7 +36,7 @@ struct Look {
   float tint = 0;  // of the highlight: 0 white, 1 as the surface
 };
 
-constexpr Look kLooks[] = {  // in the order of head::Material
+constexpr Look kLooks[] = {  // in the order of head::SurfaceKind
     {{0.42f, 0.22f, 0.16f}, 0.10f, 4, 0.22f},
     {{0.25f, 0.22f, 0.20f}, 0, 1, 0},
     {{0.2f, 0.2f, 0.2f}, 0.35f, 5, 0},
@@ -137,14 +137,14 @@ View::View(const Camera& camera, int width, int height) : eye(camera.eye) {
 
 void shade(const Surface& surface, const View& view, std::size_t first, std::size_t last,
            ScreenVertex* out) {
-  const Look& look = kLooks[std::size_t(surface.material)];
+  const Look& look = kLooks[std::size_t(surface.kind)];
   const Vec3 gaze = surface.transform.turn({0, 0, 1});
   for (std::size_t i = first; i < last; ++i) {
     const Vec3 place = surface.transform(surface.positions[i]);
     const Vec3 normal = surface.transform.turn(surface.normals[i]);
     const Vec3 from_eye = put(place, view, out[i]);
     ScreenVertex& v = out[i];
-    v.normal = surface.material == Material::eye ? cornea(normal, gaze) : normal;
+    v.normal = surface.kind == SurfaceKind::eye ? cornea(normal, gaze) : normal;
     const Vec3 to_eye = normalised(Vec3{} - from_eye);
     if (dot(to_eye, normal) < -0.5f) continue;  // no triangle that is seen has such a corner
     const Vec3 c = lit(normal, to_eye, surface.colours[i], surface.occlusion[i], look, view);

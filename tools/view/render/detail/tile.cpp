@@ -79,7 +79,7 @@ Tile::Plane Tile::plane(const ScreenFrame& frame, F4 a, F4 b, F4 c) {
           (dc * splat(frame.bx) - db * splat(frame.cx)) * splat(frame.scale)};
 }
 
-// What a triangle without a coat shows; made when the first of its pixels is seen.
+// What a triangle without a material shows; made when the first of its pixels is seen.
 struct Tile::Planes {
   const Corners& corners;
   const ScreenFrame& frame;
@@ -168,14 +168,14 @@ struct Tile::Cover {
   static constexpr bool over() { return false; }
 };
 
-void Tile::cover(const CoatFacet& facet) {
+void Tile::cover(const MaterialFacet& facet) {
   Cover cover;
   fill(facet.screen, ScreenFrame(facet.screen), cover);
 }
 
-void Tile::draw(const CoatFacet& facet, const View& view) {
+void Tile::draw(const MaterialFacet& facet, const View& view) {
   const ScreenFrame frame(facet.screen);
-  CoatPainter painter(facet, frame, view);
+  MaterialPainter painter(facet, frame, view);
   fill(facet.screen, frame, painter);
 }
 

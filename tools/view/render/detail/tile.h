@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "tools/view/render/detail/coat_painter.h"
+#include "tools/view/render/detail/material_painter.h"
 #include "tools/view/render/detail/side.h"
 
 namespace animeme::render::detail {
@@ -20,10 +20,10 @@ class Tile {
   void draw(const Corners& corners, bool eye, const View& view);
   /// Notes how near a facet is, without drawing it, so that draw() has to look at what is seen
   /// only.
-  void cover(const CoatFacet& facet);
-  /// Draws a facet by its coat. One that blends goes over what is there and hides nothing: draw
+  void cover(const MaterialFacet& facet);
+  /// Draws a facet by its material. One that blends goes over what is there and hides nothing: draw
   /// them last, and those that are far away first.
-  void draw(const CoatFacet& facet, const View& view);
+  void draw(const MaterialFacet& facet, const View& view);
   /// Averages the samples into the picture.
   void finish(Image& image) const;
 

@@ -37,7 +37,7 @@ export class Controls {
       radio.addEventListener('change', () => app.set('mode', radio.value));
     }
     byId('modes').hidden = app.clips.length < 2;
-    byId('whose').hidden = app.heads.length < 2 || !app.stage.view;
+    byId('whose').hidden = app.heads.length < 2 || !app.viewport.view;
     byId('heads').replaceChildren(...app.heads.map((name, i) => new Option(name, i)));
     byId('heads').addEventListener('change', (event) => app.showHead(Number(event.target.value)));
     byId('full').hidden = !document.fullscreenEnabled;

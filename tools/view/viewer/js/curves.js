@@ -1,7 +1,7 @@
 // Curves of the chosen FAPs over time, the wave of the sound, phones and words above them, and a
 // head that moves along.
 import {listenToDrags} from './axis.js';
-import {SILENCE, Said, wordsOf} from './said.js';
+import {SILENCE, Said, wordsOf} from './captions.js';
 import {Wave} from './wave.js';
 
 const ROW = 52;

@@ -1,6 +1,6 @@
-// WebGL2: programs, one draw call for each part, or for each coat of it.
-import {Coats} from './coats.js';
-import {COAT_FRAGMENT, COAT_VERTEX} from './coat_shaders.js';
+// WebGL2: programs, one draw call for each part, or for each material of it.
+import {Materials} from './materials.js';
+import {MATERIAL_FRAGMENT, MATERIAL_VERTEX} from './material_shaders.js';
 import {Mesh} from './mesh.js';
 import {HEAD_FRAGMENT, HEAD_VERTEX, LINE_FRAGMENT, LINE_VERTEX} from './shaders.js';
 
@@ -44,8 +44,8 @@ export class Renderer {
     this.gl = gl;
     this.heads = new Program(gl, HEAD_VERTEX, HEAD_FRAGMENT);
     this.lines = new Program(gl, LINE_VERTEX, LINE_FRAGMENT);
-    this.coats = new Coats(gl, model, onNeed);
-    if (model.coats) this.coated = new Program(gl, COAT_VERTEX, COAT_FRAGMENT);
+    this.materials = new Materials(gl, model, onNeed);
+    if (model.materials) this.lit = new Program(gl, MATERIAL_VERTEX, MATERIAL_FRAGMENT);
     gl.enable(gl.CULL_FACE);
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
@@ -83,12 +83,12 @@ export class Renderer {
       gl.clear(gl.DEPTH_BUFFER_BIT);
       gl.colorMask(false, false, false, false);
       this.drawParts(meshes, rig, view, style);
-      this.drawCoats(meshes, rig, view, style);
+      this.drawMaterials(meshes, rig, view, style);
       gl.colorMask(true, true, true, true);
       gl.enable(gl.BLEND);
     }
     this.drawParts(meshes, rig, view, style);
-    this.drawCoats(meshes, rig, view, style);
+    this.drawMaterials(meshes, rig, view, style);
     if (style.wire) this.drawWires(meshes, rig, view, style.wire);
     gl.disable(gl.BLEND);
     gl.bindVertexArray(null);
@@ -115,7 +115,7 @@ export class Renderer {
     gl.uniform1f(heads.place('opacity'), style.opacity);
     gl.vertexAttrib1f(3, -1);
     meshes.forEach((mesh, i) => {
-      if (mesh.count === 0 || this.isCoated(mesh)) return;
+      if (mesh.count === 0 || this.hasMaterial(mesh)) return;
       this.setPart(heads, rig.transforms[i]);
       const {wrap, shine, sharpness, rim, gloss = 0} = mesh.look;
       gl.uniform3fv(heads.place('wrap'), wrap);
@@ -123,40 +123,40 @@ export class Renderer {
       gl.uniform1i(heads.place('sharpness'), sharpness);
       gl.uniform1f(heads.place('rimShare'), rim);
       gl.uniform1f(heads.place('gloss'), gloss);
-      gl.uniform1i(heads.place('eyeball'), mesh.part.material === 'eye' ? 1 : 0);
+      gl.uniform1i(heads.place('eyeball'), mesh.part.surface === 'eye' ? 1 : 0);
       mesh.drawTriangles();
     });
   }
 
-  // A mesh that shows distances shows no coat.
-  isCoated(mesh) {
+  // A mesh that shows distances shows no material.
+  hasMaterial(mesh) {
     return Boolean(mesh.part.facets) && !mesh.hot;
   }
 
   // What blends comes last, and of it first what is far away.
-  drawCoats(meshes, rig, view, style) {
-    if (!this.coated) return;
-    const {gl, coats, coated} = this;
-    this.setView(coated, view);
-    for (const name of ['key', 'fill', 'rim']) gl.uniform3fv(coated.place(name), view[name]);
-    gl.uniform4fv(coated.place('tint'), style.tint);
-    gl.uniform1f(coated.place('opacity'), style.opacity);
-    const runs = meshes.flatMap((mesh, i) => (this.isCoated(mesh) ?
+  drawMaterials(meshes, rig, view, style) {
+    if (!this.lit) return;
+    const {gl, materials, lit} = this;
+    this.setView(lit, view);
+    for (const name of ['key', 'fill', 'rim']) gl.uniform3fv(lit.place(name), view[name]);
+    gl.uniform4fv(lit.place('tint'), style.tint);
+    gl.uniform1f(lit.place('opacity'), style.opacity);
+    const runs = meshes.flatMap((mesh, i) => (this.hasMaterial(mesh) ?
         mesh.part.facets.runs.map((run) => ({mesh, run, transform: rig.transforms[i]})) : []));
     const away = ({run}) => Math.hypot(...run.middle.map((x, k) => x - view.eye[k]));
-    // At first what hides: also what is opaque of a veil, as many files have nothing but veils.
+    // First the opaque texels, also of materials that blend: many files declare all materials so.
     const draw = ({mesh, run, transform}, hiding) => {
-      this.setPart(coated, transform);
-      coats.bind(run.coat, coated, hiding);
+      this.setPart(lit, transform);
+      materials.bind(run.material, lit, hiding);
       mesh.drawRun(run);
     };
-    const veils = runs.filter(({run}) => coats.blends(run.coat));
+    const transparent = runs.filter(({run}) => materials.blends(run.material));
     const ghost = style.opacity < 1;  // shines through as a whole
-    runs.filter((each) => !ghost || !veils.includes(each)).forEach((each) => draw(each, true));
+    runs.filter((each) => !ghost || !transparent.includes(each)).forEach((each) => draw(each, true));
     const alone = !gl.isEnabled(gl.BLEND);
     gl.enable(gl.BLEND);
     gl.depthMask(false);
-    veils.sort((a, b) => away(b) - away(a)).forEach((each) => draw(each, false));
+    transparent.sort((a, b) => away(b) - away(a)).forEach((each) => draw(each, false));
     gl.depthMask(true);
     if (alone) gl.disable(gl.BLEND);
     gl.enable(gl.CULL_FACE);

@@ -59,7 +59,7 @@ export class HeadView {
     const rigs = this.rigs && model === this.model && this.rigs[0].model === model ? this.rigs :
         Array.from({length: this.count}, () => new Rig(model));
     // ready: its pictures are decoded; before, it has plain colours.
-    return {renderer, rigs, meshes: rigs.map((rig) => renderer.load(rig)), ready: renderer.coats.ready};
+    return {renderer, rigs, meshes: rigs.map((rig) => renderer.load(rig)), ready: renderer.materials.ready};
   }
 
   /** Moves head `which` without drawing it, by FAPs. */

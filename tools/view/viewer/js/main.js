@@ -1,4 +1,4 @@
-// Puts the page together: data, player, stage, curves, controls; window.animeme.
+// Puts the page together: data, player, viewport, curves, controls; window.animeme.
 import {fromBase64} from './bytes.js';
 import {Axis} from './axis.js';
 import {Chooser, mostMoving} from './chooser.js';
@@ -10,7 +10,7 @@ import {fillHelp, keyTable, listenToKeys} from './keys.js';
 import {readModel} from './model.js';
 import {Player} from './player.js';
 import {rigReady} from './rig.js';
-import {MODES, Stage} from './stage.js';
+import {MODES, Viewport} from './viewport.js';
 
 const byId = (id) => document.getElementById(id);
 const coded = (id) => fromBase64(byId(id).textContent);
@@ -31,12 +31,12 @@ class App {
     this.axis = new Axis(this.player.duration);
     this.needed = false;
     this.resume = false;
-    this.stage = new Stage({
-      element: byId('stage'), canvas: byId('picture'), overlay: byId('overlay'), tip: byId('tip'),
+    this.viewport = new Viewport({
+      element: byId('viewport'), canvas: byId('picture'), overlay: byId('overlay'), tip: byId('tip'),
       message: byId('message'), readout: byId('readout'), names: [byId('name0'), byId('name1')],
     }, model, this.clips, facts.faps);
     this.heads = facts.heads || [];
-    this.wardrobe = [{model, clips: this.clips}];
+    this.loaded = [{model, clips: this.clips}];
     this.whose = 0;
     this.curves = new Curves({
       area: byId('area'), canvas: byId('curves'), labels: byId('labels'), head: byId('head'),
@@ -45,7 +45,7 @@ class App {
     this.controls = new Controls(byId, this);
     this.chooser = new Chooser({search: byId('search'), list: byId('list'), count: byId('count')},
         facts, this.clips, (faps) => this.curves.choose(faps));
-    this.stage.onNeed = () => this.need();
+    this.viewport.onNeed = () => this.need();
     this.player.onChange = () => this.changed();
   }
 
@@ -64,7 +64,7 @@ class App {
     this.needed = false;
     const time = this.player.tick();
     this.drawn = {time, frame: this.clips[0].frameAt(time), clock: this.player.clock()};
-    this.stage.show(time, this.options.between && this.player.playing);
+    this.viewport.show(time, this.options.between && this.player.playing);
     this.curves.show(time);
     this.controls.show(time, this.drawn.frame);
     if (this.player.playing) this.need();
@@ -78,27 +78,27 @@ class App {
   }
 
   set(name, value) {
-    this.options[name] = name === 'mode' ? this.stage.setMode(value) : value;
-    if (name === 'wire' && this.stage.view) this.stage.view.wire = value;
-    if (name === 'points' && this.stage.view) this.stage.points.set(value);
+    this.options[name] = name === 'mode' ? this.viewport.setMode(value) : value;
+    if (name === 'wire' && this.viewport.view) this.viewport.view.wire = value;
+    if (name === 'points' && this.viewport.view) this.viewport.points.set(value);
     this.controls.update();
     this.need();
   }
 
   /** Shows head `which`, a number; what is in the page of it is unpacked when it is wanted. */
   async showHead(which) {
-    if (!this.stage.view) return;
+    if (!this.viewport.view) return;
     this.wanted = which;
-    if (!this.wardrobe[which]) {
+    if (!this.loaded[which]) {
       const own = await Promise.all(this.clips.map((_, i) => data(`clip${i}_${which}`)));
-      this.wardrobe[which] = {model: readModel(await data(`model_${which}`)),
+      this.loaded[which] = {model: readModel(await data(`model_${which}`)),
         clips: own.map((bytes, i) => (bytes ? new Clip(bytes) : this.clips[i]))};
     }
     if (this.wanted !== which) return;  // somebody was faster
-    const {model, clips} = this.wardrobe[which];
+    const {model, clips} = this.loaded[which];
     this.whose = which;
-    this.stage.setModel(model, clips);
-    await this.stage.view.ready;
+    this.viewport.setModel(model, clips);
+    await this.viewport.view.ready;
     this.changed();
   }
 
@@ -155,12 +155,12 @@ class App {
   }
 
   resetView() {
-    if (this.stage.view) this.stage.view.camera.reset();
+    if (this.viewport.view) this.viewport.view.camera.reset();
   }
 
   /** By degrees to the person's left and up. */
   turnView(left, up) {
-    if (this.stage.view) this.stage.view.camera.turn(left * Math.PI / 180, up * Math.PI / 180);
+    if (this.viewport.view) this.viewport.view.camera.turn(left * Math.PI / 180, up * Math.PI / 180);
   }
 
   fullscreen() {
@@ -184,7 +184,7 @@ function obey(app) {
   app.set('mode', asked.get('mode') || 'side');
   if (asked.has('speed')) app.player.setRate(number('speed'));
   if (asked.has('left') || asked.has('up') || asked.has('zoom')) {
-    const {view} = app.stage;
+    const {view} = app.viewport;
     if (view) view.camera.reset(number('left') || 0, number('up') || 0, number('zoom') || undefined);
   }
   // So much time at first that phones can be read.
@@ -204,14 +204,14 @@ async function start() {
       await data('model').then(readModel).catch((problem) => problem);
   const app = new App(facts, model, [await data('clip0'), await data('clip1')]);
   byId('title').textContent = app.clips.map((clip) => clip.name).join(' / ');
-  byId('stage').classList.toggle('says', facts.phones.length > 0);
+  byId('viewport').classList.toggle('says', facts.phones.length > 0);
   const table = keyTable(app);
   fillHelp(byId('keylist'), table);
   listenToKeys(table, byId('keys'));
   for (const query of ['(prefers-color-scheme: dark)', '(prefers-contrast: more)']) {
     matchMedia(query).addEventListener('change', () => app.curves.draw());
   }
-  const {stage, player} = app;
+  const {viewport, player} = app;
   const api = {
     seek: (time) => app.seek(time),
     play: () => player.play(),
@@ -221,16 +221,16 @@ async function start() {
       ...app.drawn, playing: player.playing, duration: player.duration, rate: player.rate,
       position: player.position(), frames: app.clips[0].frames, clips: app.clips.length,
       sound: Boolean(player.buffer), loop: player.loop(), faps: app.curves.faps,
-      head: Boolean(stage.view), whose: app.heads[app.whose], ...app.options,
+      head: Boolean(viewport.view), whose: app.heads[app.whose], ...app.options,
     }),
     /** Vertices of a part ('skin' ...) of head 0 or 1 as they are shown, x y z one after the other
         in cm; null without a head. */
     vertices: (part, head = 0) => {
-      if (!stage.view) return null;
-      const rig = stage.view.rigs[head];
+      if (!viewport.view) return null;
+      const rig = viewport.view.rigs[head];
       return rig.placed(rig.index[part]);
     },
-    points: () => (stage.view ? stage.view.points() : []),
+    points: () => (viewport.view ? viewport.view.points() : []),
     /** Another head, by its number in the list. */
     showHead: (which) => app.showHead(which),
     /** Draws now. */
@@ -248,7 +248,7 @@ async function start() {
       app.changed();
     });
   }
-  if (stage.view) await stage.view.ready;
+  if (viewport.view) await viewport.view.ready;
   app.draw();
   if (flag('play')) playUnasked(player);
 }

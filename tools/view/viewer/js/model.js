@@ -10,7 +10,7 @@ function readPart(reader, info, {positions, normals, triangles, deforms}) {
     const values = reader.u8(count);
     for (let i = 0; i < count; ++i) paint[i * 4 + k] = values[i];
   }
-  const part = {name: info.name, material: info.material, positions, normals, paint, deforms,
+  const part = {name: info.name, surface: info.surface, positions, normals, paint, deforms,
     triangles: triangles.subarray(0, info.solid * 3)};
   if (info.facets) part.facets = readFacets(reader, info.facets, part);
   return part;
@@ -19,7 +19,7 @@ function readPart(reader, info, {positions, normals, triangles, deforms}) {
 const axisOf = (reader, [low, step], count) =>
   Float32Array.from(reader.u16(count), (value) => low + value * step);
 
-// What is drawn with coats: corners, each with its vertex, and facets in runs of one coat.
+// What is drawn with materials: corners, each with its vertex, and facets in runs of one material.
 function readFacets(reader, info, part) {
   const count = info.corners;
   const vertices = new Uint32Array(count);
@@ -40,8 +40,8 @@ function readFacets(reader, info, part) {
   last = 0;
   for (let i = 0; i < corners.length; ++i) corners[i] = last += reader.zigzag();
   let first = 0;
-  const runs = info.runs.map(([coat, size]) => {
-    const run = {coat, first, count: size * 3, middle: [0, 0, 0]};
+  const runs = info.runs.map(([material, size]) => {
+    const run = {material, first, count: size * 3, middle: [0, 0, 0]};
     first += size * 3;
     for (let i = run.first; i < first; ++i) {
       for (let k = 0; k < 3; ++k) {

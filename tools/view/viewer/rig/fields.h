@@ -1,5 +1,5 @@
 /// @file
-/// The fields of a head::Rig in the order of their bytes, once for those who write and who read.
+/// The fields of a head::Rig in the order of their bytes, for writer and reader.
 #pragma once
 
 #include <cstddef>

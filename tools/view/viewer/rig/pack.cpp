@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <type_traits>
 
 #include "tools/view/viewer/rig/fields.h"
 #include "tools/view/viewer/rig/numbers.h"

@@ -11,7 +11,7 @@ namespace {
 
 using head::Vec3;
 
-// What fields.h calls an archive, to read. Behind the end all is 0; good() tells.
+// The reading archive of fields.h. Past the end it returns 0, and good() is false.
 class Unpacker {
  public:
   explicit Unpacker(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}

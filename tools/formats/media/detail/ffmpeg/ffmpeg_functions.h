@@ -130,7 +130,7 @@ struct Functions {
 /// The table that all calls go by.
 const Functions& functions();
 
-/// The addresses themselves: whoever calls it is linked with FFmpeg.
+/// The addresses of the functions. Callers link with FFmpeg.
 inline Functions linked_functions() {
 #define ANIMEME_FFMPEG_ADDRESS(name) &::name,
   return {ANIMEME_FFMPEG_FUNCTIONS(ANIMEME_FFMPEG_ADDRESS)};

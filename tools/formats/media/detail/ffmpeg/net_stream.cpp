@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "tools/formats/media/detail/ffmpeg/ffmpeg.h"
-#include "tools/formats/media/rtp/udp_socket.h"
 
 namespace animeme::media {
 namespace {
@@ -41,7 +40,7 @@ Result<void> NetThread::open(int flags, int datagram_bytes) {
     options.set("buffer_size", kSocketBuffer);
   }
   if (!udp && address_.listener) options.set("listen_timeout", std::int64_t(-1));
-  // An address of ours is bound to alone; that of another machine means: whoever sends.
+  // A local address is bound; with an address of another machine any sender is accepted.
   if (udp && reading && address_.option("localaddr").empty() && is_own_address(address_.host)) {
     options.set("localaddr", address_.host);
   }
@@ -243,7 +242,7 @@ void NetWriter::run() {
     }
     close();
     const std::lock_guard lock(mutex_);
-    if (last_) return;  // finish() saw a receiver: nobody would stop the wait for another one
+    if (last_) return;  // after finish() no thread would end a second wait
     queue_.clear();
     queued_ = 0;
     changed_.notify_all();
@@ -265,7 +264,7 @@ bool NetWriter::write_all() {
     avio_flush(io_);
     if (io_->error >= 0) continue;
     if (!udp) return false;
-    io_->error = 0;  // nobody listens on a UDP port: not our concern
+    io_->error = 0;  // no receiver on this UDP port: not an error
   }
 }
 

@@ -1,7 +1,6 @@
 #include "tools/formats/media/detail/ffmpeg/output_stream.h"
 
 #include <cerrno>
-#include <cstring>
 #include <utility>
 
 namespace animeme::media {

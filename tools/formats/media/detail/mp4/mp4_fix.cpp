@@ -8,14 +8,12 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
-#include <optional>
 #include <string_view>
 
 #include "tools/formats/media/detail/ffmpeg/output_stream.h"
 #include "tools/formats/media/detail/mp4/box_writer.h"
 #include "tools/formats/media/detail/mp4/boxes.h"
 #include "tools/formats/media/detail/mp4/fragment_index.h"
-#include "tools/formats/media/detail/mp4/metadata_tracks.h"
 #include "tools/formats/media/detail/tracks/text_samples.h"
 
 namespace animeme::media {

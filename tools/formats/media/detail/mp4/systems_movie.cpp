@@ -40,7 +40,7 @@ std::vector<std::uint8_t> visual_entry(const StreamDescription& stream) {
 
 std::vector<std::uint8_t> sound_entry(const StreamDescription& stream, int sample_rate) {
   BoxWriter out;
-  // Two channels, by the template; the configuration tells how many there are.
+  // The template requires two channels; the configuration has the real number.
   begin_sound_entry(out, "mp4a", 2, sample_rate);
   put_esds(out, stream);
   out.end();

@@ -20,7 +20,7 @@ constexpr unsigned kFapField = 0, kVisemeField = 0, kExpressionField = 1;  // 3,
 constexpr unsigned kSourceField = 8, kUrlField = 1;                        // 4, 3 bits
 
 constexpr unsigned kDefined = 1, kAnonymous = 0;
-constexpr unsigned kByMask = 1, kByList = 0;  // how fields are told
+constexpr unsigned kByMask = 1, kByList = 0;  // how fields are addressed
 constexpr unsigned kMore = 0, kEnd = 1;       // of a list
 
 /// A node of our own, not a reference to another.

@@ -35,7 +35,7 @@ struct SegmentedTrack {
 struct SidecarText {
   std::string playlist;  ///< its reference
   std::string name;      ///< what players list it as
-  std::string language;  ///< empty: not told
+  std::string language;  ///< empty: unknown
 };
 
 /// `folder` is where the segments lie, seen from the playlist: "talk_hls".

@@ -18,7 +18,7 @@ struct BitRates {
 };
 BitRates bit_rates(AudioCodec codec);
 
-/// What the encoder is told: the settings' rate or the usual one, within 6 bits a sample of AAC.
+/// The bit rate for the encoder: that of the settings or the default, at most 6 bits a sample.
 std::int64_t coded_bit_rate(const AudioSettings& settings, int sample_rate);
 
 /// Stream parameters for a muxer or decoder. `bit_rate`: mean bits a second, 0: not known.

@@ -1,7 +1,6 @@
 #include "tools/formats/media/detail/sound/sound_source.h"
 
 #include <algorithm>
-#include <span>
 #include <utility>
 
 #include "tools/formats/media/detail/sound/audio_parameters.h"

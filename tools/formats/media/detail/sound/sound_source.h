@@ -25,9 +25,9 @@ class SoundSource {
   static SoundSource copying(const EncodedAudio& audio);
 
   const AudioFormat& format() const { return audio_ ? audio_->format : encoder_->format(); }
-  /// Bits a second: of the packets, or as the encoder was told.
+  /// Bits a second: of the packets, or the encoder's target.
   std::int64_t bit_rate() const { return bit_rate_; }
-  /// Length of all of it, or what a sound file tells of itself.
+  /// Length of the sound, or the length in the header of the file.
   double seconds() const;
   /// Length of what was coded or copied so far.
   double seconds_so_far() const;

@@ -14,7 +14,7 @@ namespace animeme::media {
 struct FaceTrack {
   enum class State : std::uint8_t {
     no,
-    maybe,  ///< no configuration in the header; the first packet tells
+    maybe,  ///< no configuration in the header; the first packet decides
     yes,
   };
   State state = State::no;

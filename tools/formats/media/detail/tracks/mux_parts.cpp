@@ -4,7 +4,6 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
-#include <string>
 #include <utility>
 
 #include "tools/formats/media/detail/ffmpeg/invalid.h"

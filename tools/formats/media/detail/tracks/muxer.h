@@ -26,7 +26,7 @@ class Muxer {
   Muxer(const Muxer&) = delete;
   Muxer& operator=(const Muxer&) = delete;
 
-  /// Are the units all there are? Else what a decoder is told of them is left open.
+  /// The units are complete. Else the decoder configuration is left open.
   enum class Whole : bool { no, yes };
   /// Adds the face stream. `units` must outlive the muxer; it has one at least, whose duration
   /// tells the rate.

@@ -19,9 +19,9 @@ class PlaneCutter {
     double seconds = 0;  ///< from the first piece, as the planes tell
   };
   /// What a packet holds behind the configuration, packets in their order; `intra`: it begins with
-  /// an intra plane. One piece: it is one plane, or cannot be told.
+  /// an intra plane. One piece: it is one plane, or its borders are unknown.
   std::vector<Piece> cut(std::span<const std::uint8_t> packet, bool intra);
-  /// Something is missing here: borders cannot be told up to the next intra plane.
+  /// Data is missing here: borders are unknown up to the next intra plane.
   void gap() { following_ = false; }
 
  private:

@@ -1,7 +1,6 @@
 #include "tools/formats/media/detail/tracks/unit_collector.h"
 
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "tools/formats/media/detail/tracks/face_header.h"
@@ -102,7 +101,7 @@ void UnitCollector::set_durations() {
   fba::AccessUnit& last = units_.back();
   if (last.duration > 0) return;
   if (units_.size() > 1) last.duration = units_[units_.size() - 2].duration;
-  // Nothing tells how long a lonely plane stays: one frame at 25 a second.
+  // A single plane has no duration: one frame at 25 frames a second.
   else
     last.duration = std::max<std::int64_t>(1, base_.den / (25 * std::int64_t(base_.num)));
 }

@@ -131,7 +131,7 @@ void TsDemuxer::end(std::vector<TsEvent>& events) {
   program_.reset();
   tracks_ = {};
   maps_.clear();
-  pids_.clear();  // whoever comes next counts from anywhere
+  pids_.clear();  // the next sender has its own continuity counters
 }
 
 void TsDemuxer::adopt(const TsProgram& program, std::vector<TsEvent>& events) {
@@ -155,7 +155,7 @@ void TsDemuxer::take_payload(std::size_t index, const Packet& packet,
                              std::vector<TsEvent>& events) {
   Track& track = tracks_[index];
   if (packet.begins) {
-    // Without a length only the next one tells that it is whole.
+    // A packet without a length ends where the next one begins.
     if (track.open && !stated_size(track.bytes)) close(index, events);
     if (track.open) damage(track);
     track.open = true;

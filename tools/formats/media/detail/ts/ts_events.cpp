@@ -107,7 +107,7 @@ void TsEvents::take_face(TsPes& pes) {
   }
   if (headers.kind == VisualKind::face) config_.assign(pes.bytes.begin(), split);
   if (config_.empty() && *intra) config_ = default_face_config();
-  if (config_.empty()) return;  // nobody can begin here
+  if (config_.empty()) return;  // a decoder cannot start here
   const auto stamp = unwrap(pes);
   Clock& clock = clocks_[0];
   const std::int64_t begin = stamp ? *stamp - kTsTimeZero : clock.last + clock.interval;
