@@ -185,7 +185,9 @@ class Amounts {
     const std::u32string_view sign = text_.substr(first, last - first);
     const int power = multiple_of(sign);
     const std::string name = multiple_name(power, language_, {});
-    if (!name.empty() && (money || sign.size() > 1)) {
+    // "a $5 T-shirt": a letter alone has to touch the number or the sign.
+    const bool touches = first == from || !currency_of(at(last)).empty();
+    if (!name.empty() && (sign.size() > 1 || (money && touches))) {
       if (at(last) == U'.' && first > from && !ends_text(text_, last + 1)) ++last;
       return {last, code_points(name.substr(0, name.size() - 1))};
     }

@@ -91,7 +91,7 @@ bool is_slash(char32_t c) { return c == U'/' || c == 0x2044 || c == 0x2215; }
 
 // Days and pages without a name: "on 3/4", "page 1/2".
 constexpr std::string_view kNoFractionBehind =
-    " on since until till dated page part step slide page seite teil folie am vom seit le du "
+    " on since until till dated page part step slide chapter seite teil folie am vom seit le du "
     "depuis "
     "partie étape el desde página parte paso il dal pagina passo em até etapa op sinds deel stap ";
 
@@ -143,6 +143,8 @@ constexpr std::string_view kGermanMonths =
     "jan "
     "feb apr aug sept okt nov dez jahrhundert jahrhunderts ";
 constexpr std::string_view kGermanE = " der die das ";
+constexpr std::string_view kGermanDative =
+    " in an auf mit nach von bei zu aus seit während ab vor hinter neben unter über zwischen ";
 constexpr std::string_view kGermanEn =
     " am dem den des im vom zum zur beim ab seit bis einem einer eines ihrem seinem ";
 
@@ -299,7 +301,10 @@ Amount ordinal_at(std::u32string_view text, std::size_t at, const std::string& l
     // "Er ist 3. Dann": a sentence ends.
     const bool inside = has_word(kGermanE, article) || has_word(kGermanEn, article);
     if (!month && (!inside || starter_follows(text, end + 1, base))) return {};
-    return {end + 1, german_ordinal(value, article)};
+    // "in der 5. Minute"
+    const bool dative = article == "der" &&
+                        has_word(kGermanDative, lower_word(text, word_before(text, before.first)));
+    return {end + 1, german_ordinal(value, dative ? "dem" : article)};
   }
   const auto spell = [&](bool woman, std::size_t last) -> Amount {
     if (last < text.size() && is_letter_or_digit(text[last])) return {};

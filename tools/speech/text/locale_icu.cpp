@@ -57,21 +57,34 @@ std::string locale_of(std::string_view language) {
   return U_FAILURE(status) ? std::string() : std::string(locale.data());
 }
 
+namespace {
+
+bool available(std::string_view own) {
+  const std::int32_t count = uloc_countAvailable();
+  for (std::int32_t i = 0; i < count; ++i) {
+    const std::string_view name = uloc_getAvailable(i);
+    if (name.starts_with(own) && (name.size() == own.size() || name[own.size()] == '_')) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
 // ICU answers for any locale, by its root data if there are no others.
 bool has_locale(const std::string& locale) {
   std::array<char, ULOC_LANG_CAPACITY> language{};
   UErrorCode status = U_ZERO_ERROR;
   uloc_getLanguage(locale.c_str(), language.data(), std::int32_t(language.size()), &status);
   if (U_FAILURE(status) || language[0] == '\0') return false;
-  const std::int32_t count = uloc_countAvailable();
-  for (std::int32_t i = 0; i < count; ++i) {
-    const std::string_view name = uloc_getAvailable(i);
-    const std::string_view own = language.data();
-    if (name.starts_with(own) && (name.size() == own.size() || name[own.size()] == '_')) {
-      return true;
-    }
-  }
-  return false;
+  // Hundreds of names are looked at, at every number: once is enough.
+  static std::mutex mutex;
+  static std::map<std::string, bool> known;
+  const std::lock_guard lock(mutex);
+  const auto [found, is_new] = known.try_emplace(language.data(), false);
+  if (is_new) found->second = available(language.data());
+  return found->second;
 }
 
 std::string language_code(std::string_view language) {
@@ -192,10 +205,19 @@ std::string spell_amount(std::string_view number, std::string_view unit,
   skeleton += std::string(unit) + " unit-width-full-name ." + std::string(places, '0');
   if (places == 0) skeleton.replace(skeleton.size() - 1, 1, "precision-integer");
   skeleton += " group-off latin";
-  const std::u16string wide = utf16_of(skeleton);
+  // Made once, as those of spell_number().
+  static std::mutex mutex;
+  static std::map<std::pair<std::string, std::string>, Owned<UNumberFormatter, &unumf_close>> made;
+  const std::lock_guard lock(mutex);
+  constexpr std::size_t kMostMade = 100;
+  if (made.size() > kMostMade) made.clear();
   UErrorCode status = U_ZERO_ERROR;
-  const Owned<UNumberFormatter, &unumf_close> format(unumf_openForSkeletonAndLocale(
-      wide.data(), std::int32_t(wide.size()), locale.c_str(), &status));
+  auto& format = made[{skeleton, locale}];
+  if (!format) {
+    const std::u16string wide = utf16_of(skeleton);
+    format.reset(unumf_openForSkeletonAndLocale(wide.data(), std::int32_t(wide.size()),
+                                                locale.c_str(), &status));
+  }
   const Owned<UFormattedNumber, &unumf_closeResult> result(unumf_openResult(&status));
   if (U_FAILURE(status)) return {};
   const std::string ascii(number);

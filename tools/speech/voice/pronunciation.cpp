@@ -141,20 +141,31 @@ void add_variants(const text::Token& token, bool english, const Dictionary& dict
   }
 }
 
+// A voice says no more than an hour at a time.
+constexpr std::size_t kMostSpokenBytes = 20000;
+
 Result<void> add_spoken(const std::vector<std::string>& missing, const AlignOptions& options,
                         Dictionary& dictionary) {
   VoiceOptions voice;
   voice.language = options.language;
-  auto spoken = pronounce(missing, voice, true);
-  if (!spoken && spoken.error().code == Code::unsupported) {
-    return make_error(Code::not_found, "no pronunciation for \"" + missing.front() +
-                                           "\"; add it to the dictionary, or build with espeak-ng "
-                                           "(Debian package libespeak-ng-dev), which can guess it");
-  }
-  if (!spoken) return spoken.error();
-  for (std::size_t i = 0; i < missing.size(); ++i) {
-    Labels labels = for_recogniser((*spoken)[i]);
-    if (!labels.empty()) dictionary[dam::lower_case(missing[i])] = {std::move(labels)};
+  for (std::size_t at = 0; at < missing.size();) {
+    std::vector<std::string> some;
+    for (std::size_t bytes = 0; at < missing.size() && bytes < kMostSpokenBytes; ++at) {
+      bytes += missing[at].size();
+      some.push_back(missing[at]);
+    }
+    auto spoken = pronounce(some, voice, true);
+    if (!spoken && spoken.error().code == Code::unsupported) {
+      return make_error(Code::not_found,
+                        "no pronunciation for \"" + some.front() +
+                            "\"; add it to the dictionary, or build with espeak-ng (Debian package "
+                            "libespeak-ng-dev), which can guess it");
+    }
+    if (!spoken) return spoken.error();
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      Labels labels = for_recogniser((*spoken)[i]);
+      if (!labels.empty()) dictionary[dam::lower_case(some[i])] = {std::move(labels)};
+    }
   }
   return {};
 }
