@@ -153,8 +153,8 @@ std::vector<std::string> SpokenNumbers::whole(std::string_view digits, Figures f
       add_new(all, cardinal(high) + (low < 10 ? " oh " : " ") + cardinal(low));
     }
   }
-  if (plain && size > 1) add_new(all, digit_by_digit(digits));
-  if (plain && size > 1 && base_ == "en") add_new(all, digit_by_digit(digits, true));
+  if (plain && size > 2) add_new(all, digit_by_digit(digits));
+  if (plain && size > 2 && base_ == "en") add_new(all, digit_by_digit(digits, true));
   // Telephone numbers of France and others come in pairs.
   if (plain && size == 4 && !zero && base_ != "en") {
     add_new(all, cardinal(value / 100) + " " + cardinal(value % 100));

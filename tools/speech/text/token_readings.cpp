@@ -214,9 +214,10 @@ class Ways {
     } else if (base_ == "de") {
       const std::string rank_of_month = numbers_.ordinal(month);
       for (const char* end : {"n", "r", ""}) {
-        add(rank + end + " " + name + " " + years.back());
-        add(rank + end + " " + rank_of_month + end + " " + years.back());
+        add(rank + end + " " + name + " " + years.front());
+        add(rank + end + " " + rank_of_month + end + " " + years.front());
       }
+      add(rank + "n " + name + " " + years.back());
     } else if (!words_.base.empty()) {
       const std::string of =
           words_.of.empty() || base_ == "nl" ? " " : " " + std::string(words_.of) + " ";
@@ -551,6 +552,16 @@ class Ways {
     for (const std::string& way : figures(*figure, !unit.empty())) add(sign + way + unit);
     if (text.substr(0, figure->end).find(' ') != std::string_view::npos)
       apart(text, figure->end, unit);
+    if (rest == "km/h" || rest == "mph") {
+      const std::string_view other = base_ == "de" && rest == "km/h"   ? "Stundenkilometer"
+                                     : base_ == "fr" && rest == "km/h" ? "kilomètres heure"
+                                     : base_ == "en" && rest == "km/h" ? "kilometers an hour"
+                                     : base_ == "en"                   ? "miles an hour"
+                                                                       : "";
+      for (const std::string& way : figures(*figure, true)) {
+        if (!other.empty()) add(sign + way + " " + std::string(other));
+      }
+    }
     if (sign.empty() && rest.empty() && base_ == "en" && figure->plain &&
         figure->decimals.empty() && figure->whole.size() <= 2) {
       const int day = std::atoi(figure->whole.c_str());
@@ -722,7 +733,7 @@ std::string digits_in_words(std::string_view front, const SpokenNumbers& numbers
     }
   }
   // Of signs a voice knows what to say.
-  const bool signs = std::string_view(out).find_first_of("%$#/+&@") != std::string_view::npos;
+  const bool signs = std::string_view(out).find_first_of("%$#/+&@:") != std::string_view::npos;
   return signs ? std::string() : out;
 }
 
