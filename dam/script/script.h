@@ -21,8 +21,8 @@
 ///   TokensAlign or "NAME - words", if there is one, the words. An only tier is read in any case.
 /// - Label files: HTK (.lab, .mlf), Festival and ESPS (.lab), TIMIT (.phn, .wrd), Audacity, lines
 ///   of start, end and label; MBROLA (.pho); CTM; PocketSphinx (.phseg); flite; Montreal aligner
-///   (.csv); Rhubarb Lip Sync (.tsv, .xml) and Moho (.dat), whose mouths become phones; SubRip and
-///   WebVTT.
+///   (.csv); Rhubarb Lip Sync (.tsv, .xml), Moho (.dat) and Papagayo (.pgo), whose mouths become
+///   phones; SubRip, WebVTT, SubViewer, TTML, ASS; lyrics (.lrc).
 ///
 /// Text is UTF-8, UTF-16 with or without a byte order mark, or else Latin-1. JSON (Montreal
 /// aligner, Gentle, WhisperX, speech services) is read by tools/formats/scripts/script_text.h.

@@ -78,9 +78,9 @@ Result<Timings> read_ctm(std::string_view text, const ScriptOptions& options) {
       return row.error(Code::syntax,
                        "a line of a CTM holds recording, channel, start, duration and label", 5);
     }
-    const auto start = row.seconds(2, "start", rate_or(options, 1));
+    const auto start = row.seconds(2, "start");
     if (!start) return start.error();
-    const auto length = row.seconds(3, "duration", rate_or(options, 1));
+    const auto length = row.seconds(3, "duration");
     if (!length) return length.error();
     std::string name(row.fields[0]);
     if (seen.insert(name).second) names.push_back(name);

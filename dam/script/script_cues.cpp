@@ -61,16 +61,35 @@ CueKinds cue_kinds(const std::vector<Cue>& cues) {
   return kinds;
 }
 
+// Letters of scripts that part words by blanks.
+bool is_syllable(char c) {
+  const auto byte = static_cast<unsigned char>(c);
+  return byte == '\'' || byte == '-' || ((byte | 0x20) >= 'a' && (byte | 0x20) <= 'z') ||
+         (byte >= 0xC3 && byte < 0xE0) || (byte >= 0x80 && byte < 0xC0);
+}
+
 // Words with times of their own.
 void add_timed(const Cue& cue, std::vector<TimedLabel>& labels) {
   const std::size_t first = labels.size();
   double start = cue.start;
   for (const CueLine& line : cue.lines) {
+    bool apart = true;
     for (const CuePiece& piece : line) {
       if (piece.start) start = *piece.start;
       const bool open = labels.size() > first && labels.back().end <= labels.back().start;
       if (open) labels.back().end = start;
-      if (trimmed(piece.text).empty()) continue;
+      if (trimmed(piece.text).empty()) {
+        apart = apart || !piece.text.empty();
+        continue;
+      }
+      // Karaoke times syllables: without a blank between them they are one word.
+      const bool syllable = labels.size() > first && !apart && is_syllable(piece.text[0]);
+      apart = !is_syllable(piece.text.back());
+      if (syllable) {
+        labels.back().label += trimmed(piece.text);
+        labels.back().end = labels.back().start;  // ends where the next begins
+        continue;
+      }
       labels.push_back({start,
                         start,
                         std::string(trimmed(piece.text)),

@@ -63,6 +63,7 @@ void read_marks(Timings& timings, bool speak) {
   for (std::size_t i = 0; i < labels.size(); ++i) {
     TimedLabel& label = labels[i];
     if (!label.is_word) {
+      drop_variant(label.word);
       if (is_silence_spelling(label.label) || !is_mark_among_phones(label.label)) continue;
       note_mark(timings.notes, label.label, label.line);
       make_silent(label);
@@ -225,6 +226,12 @@ void note_mark(std::vector<ScriptNote>& notes, std::string_view mark, std::int64
 
 Result<void> finish_labels(Timings& timings, const ScriptOptions& options, TimeUnit unit) {
   if (auto kept = keep_speaker(timings.labels, options.speaker); !kept) return kept.error();
+  if (options.rate > 0 && unit == TimeUnit::assumed) {
+    for (TimedLabel& label : timings.labels) {
+      label.start /= options.rate;
+      label.end /= options.rate;
+    }
+  }
   read_marks(timings, options.speak_marks);
   drop_timeless(timings);
   part_words(timings);

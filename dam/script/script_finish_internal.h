@@ -23,7 +23,8 @@ enum class TimeUnit : std::uint8_t {
 };
 
 /// Keeps the speaker of the options, takes marks for silence, leaves out labels that take no time,
-/// sorts words and ends them where the next begin, finds times in milliseconds.
+/// sorts words and ends them where the next begin, divides times of an assumed unit by the rate of
+/// the options or finds that they are milliseconds.
 /// Error: not_found (no such speaker; the message names those of the file).
 Result<void> finish_labels(Timings& timings, const ScriptOptions& options, TimeUnit unit);
 

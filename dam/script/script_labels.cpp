@@ -46,6 +46,20 @@ double whole_duration(const std::vector<LabelRow>& rows) {
 // A phone lasts 5 ms to 1 s: as samples at 8 to 48 kHz or in units of 100 ns that is 40 to 48,000
 // or 50,000 to 10,000,000. Less are seconds without decimals.
 constexpr double kLeastSamples = 20, kLeastHtk = 49000;
+// So few samples are 20 ms of a phone or 0.1 s of a word: they are milliseconds.
+constexpr double kMostMilliseconds = 320, kMostMillisecondsOfWords = 1500;
+
+bool counts_milliseconds(const std::vector<LabelRow>& rows, double duration) {
+  if (duration >= kMostMillisecondsOfWords) return false;
+  std::vector<TimedLabel> labels;
+  for (const LabelRow& row : rows) {
+    if (row.fields.size() > 2) labels.push_back(row.label_at(2, 0, 1));
+  }
+  decide_unit(labels, LabelUnit::automatic);
+  const bool words = std::any_of(labels.begin(), labels.end(),
+                                 [](const TimedLabel& label) { return label.is_word; });
+  return words || duration < kMostMilliseconds;
+}
 
 // The middle of a triphone or a full context: "a-b+c", "x^a-b+c=d@...".
 std::string_view middle_phone(std::string_view label) {
@@ -143,8 +157,9 @@ Result<Timings> read_htk(std::string_view text, const ScriptOptions& options) {
 }
 
 bool looks_like_timit(std::string_view text) {
-  const double duration = whole_duration(three_columns(text));
-  return duration >= kLeastSamples && duration < kLeastHtk;
+  const auto rows = three_columns(text);
+  const double duration = whole_duration(rows);
+  return duration >= kLeastSamples && duration < kLeastHtk && !counts_milliseconds(rows, duration);
 }
 
 Result<Timings> read_timit(std::string_view text, const ScriptOptions& options) {
@@ -172,9 +187,9 @@ Result<Timings> read_plain_labels(std::string_view text, const ScriptOptions& op
   LabelRow row;
   while (reader.next(row)) {
     if (row.fields[0] == "\\") continue;
-    const auto start = row.seconds(0, "start", rate_or(options, 1));
+    const auto start = row.seconds(0, "start");
     if (!start) return start.error();
-    const auto end = row.seconds(1, "end", rate_or(options, 1));
+    const auto end = row.seconds(1, "end");
     if (!end) return end.error();
     const bool empty = row.fields.size() < 3;  // a label of Audacity without text
     TimedLabel label = row.label_at(empty ? 1 : 2, *start, *end);

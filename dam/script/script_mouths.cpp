@@ -1,9 +1,11 @@
 // Scripts of mouths: Rhubarb Lip Sync as TSV and XML, and the switch data of Moho.
 #include <algorithm>
+#include <cmath>
 
 #include "dam/script/marks.h"
 #include "dam/script/script_readers_internal.h"
 #include "dam/script/script_values_internal.h"
+#include "dam/script/table_text_internal.h"
 #include "dam/script/viseme_phones.h"
 
 namespace animeme::dam {
@@ -121,6 +123,69 @@ Result<Timings> read_rhubarb_xml(std::string_view text, const ScriptOptions&) {
     }
   }
   if (!closed) return make_error(Code::truncated, "the XML ends before </rhubarbResult>");
+  return timings;
+}
+
+bool looks_like_papagayo(std::string_view text) { return text.starts_with("lipsync version"); }
+
+// Names and numbers, each on a line of its own: voices, in them phrases, in them words, in them
+// mouths. Frames count from 0.
+Result<Timings> read_papagayo(std::string_view text, const ScriptOptions& options) {
+  LineReader reader(text);
+  Line line;
+  Timings timings;
+  timings.alphabet = Alphabet::arpabet;
+  bool whole = true;
+  const auto next = [&] {
+    whole = whole && reader.next(line);
+    return whole ? trimmed(line.text) : std::string_view();
+  };
+  const auto number = [&](std::string_view field) {
+    const auto value = parse_number(field);
+    whole = whole && value && std::isfinite(*value);
+    return whole ? *value : 0.0;
+  };
+  next();
+  next();  // the sound
+  double rate = number(next());
+  rate = options.rate > 0 ? options.rate : rate;
+  next();
+  for (double voices = number(next()); whole && voices >= 1; --voices) {
+    const std::string speaker(next());
+    next();
+    for (double phrases = number(next()); whole && phrases >= 1; --phrases) {
+      for (int i = 0; i < 3; ++i) next();
+      for (double words = number(next()); whole && words >= 1; --words) {
+        LabelRow row{0, next(), {}};
+        const auto fields = split_fields(row.text, ' ');
+        whole = whole && fields.size() >= 4;
+        if (!whole) break;
+        const std::string word(
+            row.text.substr(0, std::size_t(fields.end()[-3].data() - row.text.data() - 1)));
+        const double end = (number(fields.end()[-2]) + 1) / rate;
+        double mouths = number(fields.end()[-1]);
+        const std::size_t first = timings.labels.size();
+        for (; whole && mouths >= 1; --mouths) {
+          const auto mouth = split_fields(next(), ' ');
+          if (mouth.size() < 2) {
+            whole = false;
+            break;
+          }
+          const auto column = mouth[1].data() - line.text.data() + 1;
+          const auto label = phone_of(VisemeSet::preston_blair, mouth[1], line.number, column);
+          if (!label) return label.error();
+          const double start = number(mouth[0]) / rate;
+          if (timings.labels.size() > first) timings.labels.back().end = start;
+          timings.labels.push_back(
+              {start, end, *label, word, line.number, column, false, Alphabet::automatic, speaker});
+        }
+      }
+    }
+  }
+  if (!whole || !(rate > 0)) {
+    return error_at_line(Code::truncated, "the Papagayo file ends early or misses a number",
+                         line.number);
+  }
   return timings;
 }
 

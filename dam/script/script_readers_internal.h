@@ -33,7 +33,11 @@ Result<Timings> read_flite(std::string_view text, const ScriptOptions& options);
 Result<Timings> read_rhubarb_tsv(std::string_view text, const ScriptOptions& options);
 Result<Timings> read_rhubarb_xml(std::string_view text, const ScriptOptions& options);
 Result<Timings> read_moho(std::string_view text, const ScriptOptions& options);
+Result<Timings> read_papagayo(std::string_view text, const ScriptOptions& options);
 Result<Timings> read_subtitles(std::string_view text, const ScriptOptions& options);
+Result<Timings> read_lrc(std::string_view text, const ScriptOptions& options);
+Result<Timings> read_ass(std::string_view text, const ScriptOptions& options);
+Result<Timings> read_ttml(std::string_view text, const ScriptOptions& options);
 
 /// Do they feel responsible for this text?
 bool looks_like_textgrid(std::string_view text);
@@ -50,10 +54,20 @@ bool looks_like_flite(std::string_view text);
 bool looks_like_rhubarb_tsv(std::string_view text);
 bool looks_like_rhubarb_xml(std::string_view text);
 bool looks_like_moho(std::string_view text);
+bool looks_like_papagayo(std::string_view text);
 bool looks_like_subtitles(std::string_view text);
+bool looks_like_lrc(std::string_view text);
+bool looks_like_ass(std::string_view text);
+bool looks_like_ttml(std::string_view text);
 
 /// Whether the phones of a label are one sound: no syllable, nor letters that happen to be a word.
 bool is_one_sound(std::string_view label, const std::vector<IpaPhone>& phones);
+
+/// Whether a label can only be a phone of pinyin, "iang4".
+bool is_phone_of_a_set(std::string_view label);
+
+/// Where all labels are pinyin or Japanese phones, and are not ARPAbet: their IPA.
+void phones_of_sets_to_ipa(std::vector<TimedLabel>& labels);
 
 /// Marks the labels as words where `unit` says so, or where most of them cannot be phones.
 void decide_unit(std::vector<TimedLabel>& labels, LabelUnit unit);

@@ -26,6 +26,7 @@ std::size_t letters_of(std::string_view label) {
 
 bool may_be_phone(std::string_view label) {
   if (is_silence_spelling(label) || !arpabet_label(label).empty()) return true;
+  if (is_phone_of_a_set(label)) return true;
   if (label.size() > 16 || letters_of(label) > 2) return false;
   const auto sounds = parse_ipa(label);
   return sounds && is_one_sound(label, *sounds);

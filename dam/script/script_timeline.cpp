@@ -44,8 +44,12 @@ Alphabet guess_alphabet(const std::vector<TimedLabel>& labels) {
 Error unknown_label(const TimedLabel& timed, Alphabet alphabet) {
   const std::string_view label = timed.label;
   std::string message = "unknown phone label " + in_quotes(label);
-  if (alphabet == Alphabet::arpabet) {
-    message += "; the nearest ARPAbet label is " + std::string(nearest_label(label));
+  const std::string_view nearest = nearest_label(label);
+  const bool alike = label.size() <= 4 && lower_case(label)[0] == lower_case(nearest)[0];
+  if (alphabet == Alphabet::arpabet && !alike) {
+    message += "; it is neither a sound of ARPAbet nor a mark such as [noise]";
+  } else if (alphabet == Alphabet::arpabet) {
+    message += "; the nearest ARPAbet label is " + std::string(nearest);
   } else {
     const auto parsed = parse_ipa(label);
     message += parsed ? "; a label must be one sound, these letters are several"
@@ -141,9 +145,9 @@ void drop_empty_pauses(std::vector<TimedLabel>& labels) {
 
 bool may_be_vowel(std::string_view label) {
   const PhoneInfo* phone = find_phone(arpabet_label(label));
-  return phone != nullptr ? phone->vowel
-                          : std::string_view("bcdfghjklmnpqrstvwxyz").find(label.substr(0, 1)) ==
-                                std::string_view::npos;
+  if (phone != nullptr) return phone->vowel;
+  const auto sounds = parse_ipa(label);
+  return !sounds || sounds->empty() || find_phone(sounds->front().label)->vowel;
 }
 
 // TIMIT separates the closure of a stop from its burst; one stop that begins at the closure is what
@@ -250,6 +254,7 @@ Result<Script> make_script(const Timings& timings) {
                       "these are words with times but without phones; for pronunciation use "
                       "`animeme speak --script`");
   }
+  phones_of_sets_to_ipa(raw);
   join_closures(raw);
   Alphabet usual = timings.alphabet;
   if (usual == Alphabet::automatic) usual = guess_alphabet(raw);

@@ -34,7 +34,7 @@ TsvColumns name_columns(std::string_view header) {
     if (name == "end_s" || name == "end") columns.end = i;
     if (name == "duration_s" || name == "duration") columns.duration = i;
     if (name == "phone" || name == "phoneme" || name == "label") columns.phone = i;
-    if (name == "word") columns.word = i;
+    if (name == "word" || name == "text") columns.word = i;
   }
   return columns;
 }

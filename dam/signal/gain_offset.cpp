@@ -106,7 +106,7 @@ double least_telling(const std::vector<Pair>& pairs, std::span<const double> typ
   return kNothing * largest_of(pairs);
 }
 
-double median(std::vector<double> values) {
+double middle_gain(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const std::size_t half = values.size() / 2;
   return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
@@ -145,7 +145,7 @@ Result<std::vector<GainOffset>> fit_gain_offset(const Poses& from, const Poses& 
   if (gains.empty())
     return make_error(Code::not_found,
                       "no common pose moves a control, so the gains cannot be determined");
-  const double usual = median(gains);
+  const double usual = middle_gain(gains);
   for (std::size_t c = 0; c < count; ++c) {
     GainOffset& one = out[c];
     if (one.source == GainSource::none) continue;

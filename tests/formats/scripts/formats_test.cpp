@@ -125,6 +125,40 @@ const std::vector<Case>& cases() {
        "SIL 0-250 P/bin 250-300 IH/bin 300-400 N/bin 400-500 SIL 500-600 P/blue 600-650 "
        "N/blue 650-720 UW/blue 720-900"},
       {"cartesia.json", "cartesia", kPhones},
+      {"pocketsphinx5.json", "pocketsphinx",
+       "SIL 0-250 B/bin 250-300 IH/bin 300-400 N/bin 400-500 SIL 500-600 B/blue 600-650 L/blue "
+       "650-720 UW/blue 720-900"},
+      {"pocketsphinx5_words.json", "pocketsphinx", " 0-250 <bin> 250-500 <blue> 600-900  900-1000"},
+      {"whispercpp.json", "whispercpp", "<Bin,> 250-500 <blue.> 600-900"},
+      {"whispercpp_full.json", "whispercpp", "<Bin,> 250-500 <blue.> 600-900"},
+      {"deepgram.json", "deepgram", "<Bin,> 250-500 <blue.> 600-900"},
+      {"transcribe.json", "aws", "<Bin,> 250-500 <blue.> 600-900"},
+      {"google.json", "google", kWords},
+      {"azure_nbest.json", "azure",
+       "SIL 0-250 B/bin 250-300 IH/bin 300-400 N/bin 400-490 SIL 490-600 B/blue 600-650 L/blue "
+       "650-720 UW/blue 720-890"},
+      {"aeneas.json", "aeneas", "<Bin,> 250-500 <so blue> 600-900"},
+      {"speechmatics.json", "speechmatics", "<Bin> 250-500 <blue> 600-900"},
+      {"rev.json", "rev", "<Bin,> 250-500 <blue.> 600-900"},
+      {"papagayo.json", "papagayo",
+       "SIL 0-250 P/bin 250-300 EH/bin 300-400 S/bin 400-500 SIL 500-600 P/blue 600-650 L/blue "
+       "650-720 UW/blue 720-900"},
+      {"papagayo.pgo", "papagayo",
+       "SIL 0-250 P/bin 250-300 EH/bin 300-400 S/bin 400-500 SIL 500-600 P/blue 600-650 L/blue "
+       "650-720 UW/blue 720-900"},
+      {"vosk.json", "vosk", kWords},
+      {"assemblyai.json", "words", "<Bin,> 250-500 <blue.> 600-900"},
+      {"whisper.tsv", "tsv", "<Bin,> 250-500 <so blue> 600-900"},
+      {"karaoke.lrc", "lrc", "<Bin> 250-600 <blue> 600-900 <go> 2000-2400 <go> 3000-3400"},
+      {"karaoke.ass", "ass", "<Bin> 250-500 <blue> 600-900 <Hi, Bob> 1000-2000"},
+      {"captions.ttml", "ttml", "<Bin & co> 250-500 <so blue> 600-900"},
+      {"captions.sbv", "subtitles", "<Bin> 250-500 <so blue> 600-900"},
+      {"pinyin.ctm", "ctm",
+       "SIL 0-200 N 200-300 IY 300-450 K 450-550 AW 550-750 P 750-850 Y 850-950 AA 950-1050 NG "
+       "1050-1150 CH 1150-1350 IH 1350-1550"},
+      {"julius.lab", "labels",
+       "SIL 0-200 K 200-300 OW 300-400 M 400-500 B 500-600 AA 600-700 K 700-900 IH 900-1000 SIL "
+       "1000-1400"},
       {"latin1.tsv", "tsv", "<Tür> 250-500 <blau> 600-900"},
       {"utf16le.tsv", "tsv", "<Tür> 250-500 <blau> 600-900"},
       {"utf16be.tsv", "tsv", "<Tür> 250-500 <blau> 600-900"},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "dam/script/script_cues_internal.h"
 #include "dam/script/script_text_internal.h"
 #include "dam/script/script_values_internal.h"
 #include "tools/formats/scripts/detail/json_script.h"
@@ -15,7 +16,7 @@ namespace {
 const std::vector<JsonFormat>& json_formats() {
   static const std::vector<JsonFormat> all = [] {
     std::vector<JsonFormat> list;
-    for (const auto part : {array_formats(), event_formats(), aligner_formats()}) {
+    for (const auto part : {array_formats(), event_formats(), aligner_formats(), word_formats()}) {
       list.insert(list.end(), part.begin(), part.end());
     }
     return list;
@@ -74,11 +75,25 @@ Result<Documents> parse_documents(std::string_view text) {
   return documents;
 }
 
+// Lyrics begin with a bracket, too, and so do marks and X-SAMPA's vowel of "cat".
+bool may_be_json(std::string_view text) {
+  if (!text.starts_with('{') && !text.starts_with('[')) return false;
+  const std::size_t next = text.find_first_not_of(" \t\r\n", 1);
+  if (next == std::string_view::npos) return true;
+  constexpr std::string_view kInObject = "\"}", kInArray = "[{]\"-0123456789";
+  const std::string_view allowed = text[0] == '{' ? kInObject : kInArray;
+  const std::size_t close = std::min(text.find(']'), text.size());
+  return allowed.find(text[next]) != std::string_view::npos &&
+         !dam::parse_clock(text.substr(1, close - 1));
+}
+
 Result<const JsonFormat*> choose_format(const std::vector<Node>& roots, std::string_view name) {
   const JsonFormat* named = nullptr;
   std::string names;
   for (const JsonFormat& format : json_formats()) {
-    names += (names.empty() ? "" : ", ") + std::string(format.shown.name);
+    if (names.find(format.shown.name) == std::string::npos) {
+      names += (names.empty() ? "" : ", ") + std::string(format.shown.name);
+    }
     if (!name.empty() && format.shown.name != name) continue;
     if (named == nullptr) named = &format;
     if (format.looks_like(roots)) return &format;
@@ -105,11 +120,12 @@ Result<dam::Timings> read_json(std::string_view text, const dam::ScriptOptions& 
   drop_unspoken(out.labels);
   if (!done) {
     Error error = done.error();
-    place_labels(text, documents->offsets, out.paths, out.labels, &error);
+    place_labels(text, documents->offsets, out, &error);
     return error;
   }
-  place_labels(text, documents->offsets, out.paths, out.labels, nullptr);
-  dam::Timings timings{(*format)->shown.name, out.alphabet, std::move(out.labels), {}};
+  place_labels(text, documents->offsets, out, nullptr);
+  dam::Timings timings{(*format)->shown.name, out.alphabet, std::move(out.labels),
+                       std::move(out.notes)};
   if (options.alphabet != dam::Alphabet::automatic) timings.alphabet = options.alphabet;
   if (auto kept = dam::finish_labels(timings, options, (*format)->unit); !kept) return kept.error();
   return timings;
@@ -138,8 +154,8 @@ Result<dam::Timings> read_labels(std::string_view text, const dam::ScriptOptions
   }
   const std::string utf8 = dam::to_utf8(text);
   const std::size_t first = utf8.find_first_not_of(" \t\r\n");
-  const bool json = first != std::string::npos && (utf8[first] == '{' || utf8[first] == '[');
-  if (!json) return dam::read_timings(utf8, options);
+  if (!may_be_json(std::string_view(utf8).substr(std::min(first, utf8.size()))))
+    return dam::read_timings(utf8, options);
   return read_json(utf8, options);
 }
 

@@ -6,12 +6,13 @@
 ///     if (timings && !animeme::dam::has_words(*timings)) script =
 ///     animeme::dam::make_script(*timings);
 ///
-/// JSON formats are distinguished by their members: Montreal aligner, Gentle, WhisperX and other
-/// lists of words with times, Rhubarb Lip Sync, events of Azure Speech, speech marks of Amazon
-/// Polly (a JSON a line), characters of ElevenLabs, words and phones of Inworld, tokens of Kokoro,
-/// visemes of HeadTTS. Members may be in any case, with or without "_", since libraries for
-/// different languages vary. Times, units and silence of each: dam/script/phoneme_scripts.md,
-/// section 1.
+/// JSON formats are distinguished by their members: Montreal aligner, Gentle, PocketSphinx 5,
+/// whisper.cpp, Vosk, Deepgram, Amazon, Google, Azure, Speechmatics, Rev, aeneas, WhisperX and
+/// other lists of words with times, Rhubarb Lip Sync, Papagayo, events of Azure Speech, speech
+/// marks of Amazon Polly (a JSON a line), characters of ElevenLabs, words and phones of Inworld,
+/// tokens of Kokoro, visemes of HeadTTS. Members may be in any case, with or without "_", since
+/// libraries for different languages vary. Times, units and silence of each:
+/// dam/script/phoneme_scripts.md, section 1.
 #pragma once
 
 #include <span>

@@ -116,58 +116,6 @@ Result<void> read_gentle(const std::vector<Node>& roots, const dam::ScriptOption
   return {};
 }
 
-// WhisperX, Whisper and whatever else lists words with their times.
-
-bool is_word(const Node& node) {
-  const bool named = node.member({"word", "text", "punctuatedword"}).text().has_value();
-  return named && (node.member({"start", "starttime", "startts"}).number() ||
-                   node.member({"score"}).exists());
-}
-
-// The words of segments, or of a list; those of segments are the same as in "word_segments".
-std::vector<Node> list_words(const std::vector<Node>& roots) {
-  std::vector<Node> words;
-  const auto from = [&](const Node& list) {
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      const Node entry = list.at(i);
-      if (entry.member({"word", "text"}).text()) words.push_back(entry);
-    }
-  };
-  const Node root = roots.empty() ? Node{} : roots[0];
-  const Node segments = root.member({"segments"});
-  for (std::size_t i = 0; i < segments.size(); ++i) from(segments.at(i).member({"words"}));
-  if (words.empty()) from(root.member({"words"}));
-  if (words.empty()) from(root.member({"wordsegments"}));
-  if (words.empty()) from(root.member({"timestamps"}));
-  if (words.empty()) from(segments);
-  if (words.empty()) from(root.member({"tokens"}));
-  if (words.empty() && roots.size() == 1) from(root);
-  if (words.empty()) {
-    for (const Node& line : roots) {
-      if (is_word(line)) words.push_back(line);
-    }
-  }
-  return words;
-}
-
-bool is_word_list(const std::vector<Node>& roots) {
-  const std::vector<Node> words = list_words(roots);
-  return std::any_of(words.begin(), words.end(), is_word);
-}
-
-Result<void> read_words(const std::vector<Node>& roots, const dam::ScriptOptions&,
-                        JsonLabels& out) {
-  for (const Node& word : list_words(roots)) {
-    const auto start = word.member({"start", "starttime", "startts"}).number();
-    const auto end = word.member({"end", "endtime", "endts"}).number();
-    const std::string text = word.member({"word", "text"}).text().value_or("");
-    if (text.empty()) continue;
-    out.add(word, start.value_or(0), start && end ? *end : start.value_or(0), text, true);
-  }
-  give_times(out.labels);
-  return {};
-}
-
 // Kokoro: tokens with the phonemes of each word, in letters of their own for diphthongs.
 
 bool has_phonemes(const Node& token) {
@@ -233,10 +181,6 @@ constexpr JsonFormat kAligners[] = {
     {{"kokoro", "tokens of Kokoro with their phonemes"},
      is_kokoro,
      read_kokoro,
-     dam::TimeUnit::assumed},
-    {{"words", "words with times: WhisperX, Whisper, Kokoro-FastAPI and the like"},
-     is_word_list,
-     read_words,
      dam::TimeUnit::assumed},
 };
 

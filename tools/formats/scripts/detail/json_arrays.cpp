@@ -212,7 +212,7 @@ Result<void> read_pieces(std::string_view format, const std::vector<Node>& roots
                   [](const TimedLabel& label) { return !label.is_word; })) {
     return {};
   }
-  give_times(out.labels);
+  give_times(out);
   return {};
 }
 

@@ -125,9 +125,9 @@ class JsonWalk {
 
 }  // namespace
 
-void place_labels(std::string_view text, const std::vector<std::size_t>& offsets,
-                  const std::vector<std::string>& paths, std::vector<dam::TimedLabel>& labels,
+void place_labels(std::string_view text, const std::vector<std::size_t>& offsets, JsonLabels& out,
                   Error* error) {
+  const std::vector<std::string>& paths = out.paths;
   Places places;
   for (const std::string& path : paths) places.emplace(path, Place{});
   std::int64_t line = 1;
@@ -144,7 +144,8 @@ void place_labels(std::string_view text, const std::vector<std::size_t>& offsets
     const bool known = number > 0 && number <= std::int64_t(paths.size());
     return known ? places[paths[std::size_t(number - 1)]] : Place{};
   };
-  for (dam::TimedLabel& label : labels) {
+  for (dam::ScriptNote& note : out.notes) note.line = place_of(note.line).line;
+  for (dam::TimedLabel& label : out.labels) {
     const Place place = place_of(label.line);
     label.line = place.line;
     label.column = place.column;

@@ -5,6 +5,7 @@
 
 #include "dam/script/marks.h"
 #include "dam/script/script_text_internal.h"
+#include "dam/script/script_values_internal.h"
 #include "dam/script/table_text_internal.h"
 
 namespace animeme::scripts {
@@ -118,19 +119,45 @@ bool is_spoken(char32_t code) {
   return code >= 0xC0 && !(code >= 0x2000 && code <= 0x206F) && !(code >= 0x3000 && code <= 0x3003);
 }
 
-void drop_unspoken(std::vector<dam::TimedLabel>& labels) {
-  std::erase_if(labels, [](const dam::TimedLabel& label) {
-    if (!label.is_word) return false;
-    for (std::string_view rest = label.label; !rest.empty();) {
-      if (is_spoken(dam::take_code_point(rest))) return false;
-    }
-    return true;
-  });
+static bool is_unspoken(const dam::TimedLabel& label) {
+  if (!label.is_word) return false;
+  for (std::string_view rest = label.label; !rest.empty();) {
+    if (is_spoken(dam::take_code_point(rest))) return false;
+  }
+  return true;
 }
 
-void give_times(std::vector<dam::TimedLabel>& words) {
-  drop_unspoken(words);
-  constexpr double kLeastOfWord = 0.06;  // seconds; in less nothing can be said
+void drop_unspoken(std::vector<dam::TimedLabel>& labels) { std::erase_if(labels, is_unspoken); }
+
+namespace {
+
+constexpr double kLeastOfWord = 0.06;   // seconds; in less nothing can be said
+constexpr double kUsualLetter = 0.075;  // seconds of a calm speaker
+constexpr double kDigitLetters = 4;     // "7": seven
+constexpr double kSlowest = 1.5;        // times the usual length fills a gap
+
+double usual_length(std::string_view word) {
+  double letters = 0;
+  while (!word.empty()) {
+    const char32_t code = dam::take_code_point(word);
+    if (is_spoken(code)) letters += code >= U'0' && code <= U'9' ? kDigitLetters : 1;
+  }
+  return std::max(2.0, letters) * kUsualLetter;
+}
+
+}  // namespace
+
+void give_times(JsonLabels& json, std::vector<Border> borders) {
+  std::vector<dam::TimedLabel>& words = json.labels;
+  if (borders.size() != words.size()) borders.assign(words.size(), {});
+  std::size_t spoken = 0;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (is_unspoken(words[i])) continue;
+    borders[spoken] = borders[i];
+    if (spoken != i) words[spoken] = std::move(words[i]);
+    ++spoken;
+  }
+  words.resize(spoken);
   const auto timed = [](const dam::TimedLabel& word) { return word.end > word.start; };
   std::vector<dam::TimedLabel> out;
   std::string waiting;  // words before the first that has a time
@@ -142,14 +169,41 @@ void give_times(std::vector<dam::TimedLabel>& words) {
       continue;
     }
     std::size_t until = i;
-    while (until < words.size() && !timed(words[until])) ++until;
-    const double from = out.empty() ? 0 : out.back().end;
-    const double to = until < words.size() ? words[until].start : from;
-    const double each = (to - from) / double(until - i);
+    double usual = 0;
+    const Border border = borders[i];
+    const auto same = [&](std::size_t k) {
+      return borders[k].start == border.start && borders[k].end == border.end;
+    };
+    while (until < words.size() && !timed(words[until]) && same(until)) {
+      usual += usual_length(words[until++].label);
+    }
+    const bool bordered = border.end > border.start && border.start >= 0;
+    double from = out.empty() ? 0 : out.back().end;
+    double to = from;
+    if (bordered) from = std::max(from, border.start);
+    if (until < words.size() && timed(words[until])) to = words[until].start;
+    if (bordered && (to <= from || border.end < to)) to = std::max(from, border.end);
+    // A pause is left where there is time for it: behind the words, or in front of the first one.
+    const bool room = to - from >= kLeastOfWord * double(until - i);
+    const bool begins = out.empty() && !bordered;
+    if (to - from > kSlowest * usual) {
+      if (begins) {
+        from = to - usual;
+      } else {
+        to = from + usual;
+      }
+    }
+    double start = from;
     for (std::size_t k = i; k < until; ++k) {
-      if (!out.empty() && each >= kLeastOfWord) {
-        words[k].start = from + each * double(k - i);
-        words[k].end = from + each * double(k - i + 1);
+      const double share = usual_length(words[k].label) / usual;
+      dam::add_note(
+          json.notes, dam::ScriptNote::Kind::given_times,
+          dam::in_quotes(words[k].label) + " has no times; it is said between its neighbours",
+          words[k].line);
+      if (room) {
+        words[k].start = start;
+        words[k].end = start + share * (to - from);
+        start = words[k].end;
         out.push_back(std::move(words[k]));
       } else if (!out.empty()) {
         out.back().label += " " + words[k].label;

@@ -41,6 +41,7 @@ struct JsonLabels {
   std::vector<dam::TimedLabel> labels;
   std::vector<std::string> paths;
   dam::Alphabet alphabet = dam::Alphabet::automatic;
+  std::vector<dam::ScriptNote> notes;  // their lines are numbers of paths, too
 
   dam::TimedLabel& add(const Node& node, double start, double end, std::string label, bool is_word);
   Error error(Code code, std::string message, const Node& node);
@@ -64,14 +65,19 @@ void drop_unspoken(std::vector<dam::TimedLabel>& labels);
 /// Names the words in whose time the middle of a phone lies.
 void attach_words(std::vector<dam::TimedLabel>& phones, const std::vector<dam::TimedLabel>& words);
 
-/// Words whose times are missing (end <= start) fill the time between their neighbours, or join the
-/// one before where there is none. Those in which nothing is spoken go first.
-void give_times(std::vector<dam::TimedLabel>& words);
+/// The times between which the words of a segment are, seconds.
+struct Border {
+  double start = -1, end = -1;  ///< negative: unknown
+};
 
-/// Sets line and column of all labels, and of `error`, which may be nullptr, by walking through the
-/// texts of the documents once. `offsets`: where each begins in `text`.
-void place_labels(std::string_view text, const std::vector<std::size_t>& offsets,
-                  const std::vector<std::string>& paths, std::vector<dam::TimedLabel>& labels,
+/// Words whose times are missing (end <= start) get usual lengths between their neighbours and the
+/// borders of their segment, or join the one before where there is no room. `borders` is as long as
+/// the labels or empty. Those in which nothing is spoken go first.
+void give_times(JsonLabels& out, std::vector<Border> borders = {});
+
+/// Sets line and column of all labels and notes, and of `error`, which may be nullptr, by walking
+/// through the texts of the documents once. `offsets`: where each begins in `text`.
+void place_labels(std::string_view text, const std::vector<std::size_t>& offsets, JsonLabels& out,
                   Error* error);
 
 /// A format: whether the documents are of it, and its reader.
@@ -83,7 +89,8 @@ struct JsonFormat {
   dam::TimeUnit unit = dam::TimeUnit::known;
 };
 
-std::span<const JsonFormat> aligner_formats();  ///< Montreal, Gentle, Rhubarb, WhisperX, Kokoro
+std::span<const JsonFormat> aligner_formats();  ///< Montreal, Gentle, Rhubarb, Kokoro
+std::span<const JsonFormat> word_formats();     ///< recognisers: words with times
 std::span<const JsonFormat> event_formats();    ///< Azure, Polly
 std::span<const JsonFormat> array_formats();    ///< ElevenLabs, Inworld, HeadTTS, Cartesia
 
