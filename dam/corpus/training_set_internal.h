@@ -33,6 +33,7 @@ struct TrainingSet {
 struct TrainRun {
   TrainSummary& summary;
   const ProgressFunction& progress;
+  bool explain = true;  ///< somebody reads what the summary says about sentences and controls
 
   /// False if the user wants to stop; then return cancelled().
   bool report(const char* stage, double done, double objective = 0) const {

@@ -7,10 +7,26 @@
 
 namespace animeme::dam {
 
+namespace {
+
+/// The first letters as a number that sorts as they do.
+std::uint32_t first_letters(std::string_view label) {
+  std::uint32_t letters = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    letters = letters << 8 | (i < label.size() ? std::uint32_t(std::uint8_t(label[i])) : 0);
+  return letters;
+}
+
+}  // namespace
+
 std::int32_t Model::find_phone(std::string_view label) const {
+  // Speech asks for each phone several times, so labels are compared by their first letters.
+  const std::uint32_t letters = first_letters(label);
   const auto at = std::lower_bound(
-      phones.begin(), phones.end(), label,
-      [](const PhoneModel& p, std::string_view l) { return std::string_view(p.label) < l; });
+      phones.begin(), phones.end(), label, [&](const PhoneModel& p, std::string_view l) {
+        const std::uint32_t own = first_letters(p.label);
+        return own != letters ? own < letters : std::string_view(p.label) < l;
+      });
   return at != phones.end() && at->label == label ? std::int32_t(at - phones.begin()) : -1;
 }
 

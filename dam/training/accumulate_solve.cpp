@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "dam/corpus/statistics_internal.h"
 #include "dam/corpus/training_set_internal.h"
@@ -66,18 +68,47 @@ std::vector<PhoneModel> phones_of(const SumsState& state, std::vector<PhoneDomin
   return phones;
 }
 
-/// Measured from the mean in standard deviations, in the order of the space; the column of ones is
-/// used up.
+/// Unknowns whose sums are the same in both sets have the same columns: the sums are exact, and two
+/// columns whose squares and product are equal do not differ.
+TermColumns equal_columns(const SumsState& state) {
+  const auto& rows = state.rows;
+  const auto at = [&](std::size_t a, std::size_t b) {
+    return std::pair(state.kept.gram.at(rows[a], rows[b]), state.held.gram.at(rows[a], rows[b]));
+  };
+  std::map<std::pair<double, double>, std::vector<std::uint32_t>> by_square;  // first of its kind
+  TermColumns columns;
+  for (std::uint32_t i = 0; i < rows.size(); ++i) {
+    const auto square = at(i, i);
+    auto& others = by_square[{square.first.value(), square.second.value()}];
+    const auto same = std::find_if(others.begin(), others.end(), [&](std::uint32_t j) {
+      return at(j, j) == square && at(i, j) == square;
+    });
+    columns.of.push_back(same == others.end() ? std::uint32_t(columns.size) : columns.of[*same]);
+    if (same != others.end()) continue;
+    others.push_back(i);
+    ++columns.size;
+  }
+  return columns;
+}
+
+/// Rows of the sums for the columns.
+std::vector<std::size_t> rows_of(const SumsState& state, const TermColumns& columns) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < columns.of.size(); ++i)
+    if (columns.of[i] == rows.size()) rows.push_back(state.rows[i]);
+  return rows;
+}
+
+/// Measured from the mean in standard deviations; the column of ones is used up.
 CurveSums standardised(const FitSums& fit, const std::vector<std::size_t>& rows,
                        std::span<const Control> controls) {
   const std::size_t k = controls.size(), n = rows.size();
-  CurveSums out;
-  out.gram = SquareMatrix(n);
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = i; j < n; ++j) out.gram[i * n + j] = fit.gram.at(rows[i], rows[j]).value();
+  CurveSums out(n, k);
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto below = out.gram.below(i);
+    for (std::size_t j = i; j < n; ++j) below[j - i] = fit.gram.at(rows[i], rows[j]).value();
+  }
   out.frames = std::size_t(fit.frames);
-  out.right.assign(n * k, 0.0);
-  out.energy.assign(k, 0.0);
   for (std::size_t c = 0; c < k; ++c) {
     const double mean = controls[c].mean, sd = controls[c].sd;
     if (sd == 0) continue;
@@ -163,19 +194,29 @@ Result<Model> train_from_sums(TrainingSums sums, const TrainOptions& options,
   const std::size_t k = model.controls.size();
   const bool choose = state->sentences.size() >= kLeastToChoose && state->kept.sentences > 0 &&
                       state->held.sentences > 0;
-  CurveSums all = standardised(state->kept, state->rows, model.controls);
+  const TermColumns columns = equal_columns(*state);
+  const std::vector<std::size_t> rows = rows_of(*state, columns);
+  CurveSums all = standardised(state->kept, rows, model.controls);
   state->kept.gram = {};
-  const CurveSums held = standardised(state->held, state->rows, model.controls);
+  const CurveSums held = standardised(state->held, rows, model.controls);
   state->held.gram = {};
-  RidgeChoice choice{options.refined.ridge > 0 ? options.refined.ridge : kUsualRidge, {}};
-  SquareMatrix work;
-  if (choose)
-    choice = choose_ridge(all, held, space, k, options.refined.ridge, options.threads, work);
+  double factor = options.refined.ridge > 0 ? options.refined.ridge : kUsualRidge;
+  std::vector<double> explained;
+  if (choose) {
+    const RidgeChooser chooser(all.gram, space, columns, options.refined.ridge, options.threads);
+    const RidgeTrial trial{all.gram, all.right, k, [&](const std::vector<double>& solution) {
+                             return errors_of(held, solution, k);
+                           }};
+    factor = chooser.choose(trial);
+    if (summary != nullptr) explained = chooser.explained(trial, factor);
+  }
   all.add(held);
-  const auto curves = solve_curves(all, space, k, choice.factor, options.threads, work);
-  note_explained(model.controls,
-                 choose ? choice.explained : explained_by(all, errors_of(all, curves, k)), choose,
-                 out);
+  const auto solution =
+      solve_curves(all.gram, all.right, space, columns, k, factor, options.threads);
+  if (summary != nullptr)
+    note_explained(model.controls, choose ? explained : explained_by(errors_of(all, solution, k)),
+                   choose, out);
+  const auto curves = curves_of(space, columns, solution, k);
   RefinedOptions refined;
   refined.time_margin = state->base.refined.time_margin;
   refined.duration_exponent = state->base.refined.duration_exponent;
@@ -183,7 +224,7 @@ Result<Model> train_from_sums(TrainingSums sums, const TrainOptions& options,
                                         std::move(dominance));
   if (auto ok = validate(model); !ok)
     return make_error(Code::invalid_argument, "the sums have no solution: " + ok.error().message);
-  out.ridge = choice.factor;
+  out.ridge = factor;
   summarise(*state, model, out);
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return model;

@@ -50,6 +50,8 @@ class SmallFixedSum {
   std::uint64_t bits() const { return bits_; }
   void set_bits(std::uint64_t bits) { bits_ = bits; }
 
+  friend bool operator==(SmallFixedSum, SmallFixedSum) = default;
+
  private:
   static constexpr double kUnits = 0x1p30;
   std::uint64_t bits_ = 0;

@@ -70,7 +70,7 @@ Result<void> hold_out(std::span<const Utterance* const> sentences,
       (s % folds == fold ? out : in).push_back(sentences[s]);
     TrainSummary none;
     const ProgressFunction quiet;
-    TrainRun apart{none, quiet};
+    TrainRun apart{none, quiet, false};
     const auto fitted = fit(in, options, apart);
     if (!fitted) continue;  // nothing is spoken in what is left
     share.add(fitted->model, out, options.threads);
@@ -91,20 +91,19 @@ Result<Model> train(std::span<const Utterance> utterances, const TrainOptions& o
   TrainSummary& out = summary != nullptr ? *summary : own;
   out = {};
   out.glitches = mended.glitches;
-  TrainRun run{out, progress};
+  TrainRun run{out, progress, summary != nullptr};
   auto fitted = fit(sentences, options, run);
   if (!fitted) return fitted.error();
   const auto& [set, model] = *fitted;
+  if (summary == nullptr) return std::move(fitted->model);
   summarise(set, sentences, out);
   review_sentences(set, model, sentences, options.threads, out);
   note_phones(model, out);
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  if (summary != nullptr) {  // what takes long is found out for those who ask
-    if (!out.held_out)
-      if (auto ok = hold_out(sentences, model.controls, options, run); !ok) return ok.error();
-    if (auto alignment = check_alignment(sentences, options.threads))
-      out.alignment = std::move(*alignment);
-  }
+  if (!out.held_out)
+    if (auto ok = hold_out(sentences, model.controls, options, run); !ok) return ok.error();
+  if (auto alignment = check_alignment(sentences, options.threads))
+    out.alignment = std::move(*alignment);
   add_warnings(out);
   return std::move(fitted->model);
 }

@@ -104,8 +104,7 @@ void set_controls(SumsState& state, const std::vector<std::string>& names, fap::
 
 double SentenceSums::largest() const {
   double largest = 0;
-  for (std::size_t i = 0; i < space.size; ++i)
-    largest = std::max(largest, curves.gram[i * space.size + i]);
+  for (std::size_t i = 0; i < space.size; ++i) largest = std::max(largest, curves.gram.at(i, i));
   return largest;
 }
 
@@ -124,8 +123,8 @@ void add_sentence_sums(const SentenceSums& from, const SumsState& state, FitSums
   const std::size_t n = places.size(), columns = to.energy.size();
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t row = state.rows[places[i]];
-    const double* column = from.curves.gram.data() + i * n;
-    for (std::size_t j = i; j < n; ++j) to.gram.at(row, state.rows[places[j]]).add(column[j]);
+    const auto below = from.curves.gram.below(i);
+    for (std::size_t j = i; j < n; ++j) to.gram.at(row, state.rows[places[j]]).add(below[j - i]);
     add(std::span(from.curves.right).subspan(i * columns, columns),
         std::span(to.right).subspan(row * columns, columns));
   }

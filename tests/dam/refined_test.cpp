@@ -127,7 +127,7 @@ Dense dense_problem(const Problem& problem, const TermSpace& space,
       ++row;
     }
   }
-  const auto ridge = ridge_of(space, 1);
+  const auto ridge = ridge_of(space, own_columns(space), 1);
   for (Eigen::Index i = 0; i < n; ++i) dense.ridge[i] = ridge[std::size_t(i)];
   dense.ridge.tail(sentences).setConstant(data.offset_frames);
   return dense;
@@ -140,8 +140,9 @@ TEST(RefinedCurves, SumsAreThoseOfTheWholeDesignWithOffsets) {
   const TermSpace space = term_space(problem.data);
   const std::vector<float> all(problem.speech.use.begin(), problem.speech.use.end());
   const CurveSums sums = sum_curves(problem.data, space, dominance, all);
-  SquareMatrix work;
-  const auto curves = solve_curves(sums, space, 2, 1, 1, work);
+  const TermColumns columns = own_columns(space);
+  const auto curves = solve_curves(sums.gram, sums.right, space, columns, 2, 1, 1);
+  EXPECT_EQ(curves_of(space, columns, curves, 2), curves);
 
   const Dense dense = dense_problem(problem, space, dominance);
   Eigen::MatrixXd gram = dense.x.transpose() * dense.x;
@@ -155,8 +156,36 @@ TEST(RefinedCurves, SumsAreThoseOfTheWholeDesignWithOffsets) {
   error = residual.squaredNorm();
   for (Eigen::Index s = Eigen::Index(space.size); s < want.rows(); ++s)
     error += problem.data.offset_frames * want.row(s).squaredNorm();
-  const auto errors = errors_of(sums, curves, 2);
+  const auto errors = errors_of(sums, curves, 2).error;
   EXPECT_NEAR(errors[0] + errors[1], error, 1e-6 * error);
+}
+
+TEST(RefinedCurves, EqualUnknownsAreSolvedAsOneAndSharedOut) {
+  test::Uniform random(13);
+  Problem problem(random, 3, 2);
+  const auto dominance = random_dominance(random, 5);
+  const TermSpace space = term_space(problem.data);
+  const std::vector<float> all(problem.speech.use.begin(), problem.speech.use.end());
+  const TermColumns own = own_columns(space), shared = shared_columns(problem.data, space);
+  EXPECT_LT(shared.size, space.size * 3 / 4);
+  const CurveSums sums = sum_curves(problem.data, space, dominance, all);
+  const auto want = solve_curves(sums.gram, sums.right, space, own, 3, 1, 1);
+  for (const int threads : {1, 3}) {
+    problem.data.threads = threads;
+    CurveSums fewer(shared.size, 3);
+    add_curves(problem.data, space, shared, dominance, all, fewer);
+    const auto solution = solve_curves(fewer.gram, fewer.right, space, shared, 3, 1, threads);
+    const auto curves = curves_of(space, shared, solution, 3);
+    ASSERT_EQ(curves.size(), want.size());
+    for (std::size_t i = 0; i < want.size(); ++i) EXPECT_NEAR(curves[i], want[i], 1e-6);
+    // Errors by sums, and without them.
+    const CurveErrors by_sums = errors_of(fewer, solution, 3);
+    const CurveErrors direct = errors_on(problem.data, space, shared, dominance, all, solution);
+    for (std::size_t c = 0; c < 3; ++c) {
+      EXPECT_NEAR(direct.error[c], by_sums.error[c], 1e-8 * by_sums.error[c]);
+      EXPECT_NEAR(direct.energy[c], by_sums.energy[c], 1e-9 * by_sums.energy[c]);
+    }
+  }
 }
 
 TEST(RefinedCurves, PartsOfACorpusAddUp) {

@@ -135,7 +135,7 @@ inline constexpr Library kLibraries[] = {
     {"nlohmann_json", "nlohmann/", "tools/formats/common/json.cpp conformance tests"},
     {"CLI11", "CLI/", "tools/app/commands/parse_line.cpp tests/bench", true},
     {"GoogleTest", "gtest/ gmock/ benchmark/", "tests"},
-    {"the system", "", "tools tests dam/maths/square_matrix.cpp"},  // pages of memory
+    {"the system", "", "tools tests dam/maths/lower_triangle.cpp"},  // pages of memory
 };
 
 }  // namespace animeme::test

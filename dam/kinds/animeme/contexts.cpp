@@ -22,16 +22,10 @@ struct Level {
 };
 
 struct Levels {
-  Level all, left_class, right_class, both_classes, left_phone, right_phone, both_phones;
+  Level all, left_class, right_class, both_classes, both_phones;
 
   explicit Levels(std::size_t n)
-      : all(n),
-        left_class(n),
-        right_class(n),
-        both_classes(n),
-        left_phone(n),
-        right_phone(n),
-        both_phones(n) {}
+      : all(n), left_class(n), right_class(n), both_classes(n), both_phones(n) {}
 };
 
 constexpr std::uint32_t kRestClass = 0xffffffffu;
@@ -49,8 +43,6 @@ void add_context(Levels& levels, const ContextCount& c, double n, std::int32_t l
   if (left_class) levels.left_class.add(mode, n);
   if (right_class) levels.right_class.add(mode, n);
   if (left_class && right_class) levels.both_classes.add(mode, n);
-  if (c.left == left) levels.left_phone.add(mode, n);
-  if (c.right == right) levels.right_phone.add(mode, n);
   if (c.left == left && c.right == right) levels.both_phones.add(mode, n);
 }
 

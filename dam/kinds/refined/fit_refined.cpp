@@ -112,7 +112,7 @@ class RefinedTrainer {
     run_.summary.objective.push_back(fit.objective);
     if (!improve(main, fit)) return TrainRun::cancelled();
     if (!run_.report("curves", 0, fit.objective)) return TrainRun::cancelled();
-    return finish(space, fit.dominance);
+    return finish(space, fit.dominance, main, directions);
   }
 
  private:
@@ -127,7 +127,8 @@ class RefinedTrainer {
     return go_on;
   }
 
-  Result<Parameters> finish(const TermSpace& space, std::vector<PhoneDominance> dominance) {
+  Result<Parameters> finish(const TermSpace& space, std::vector<PhoneDominance> dominance,
+                            const RefinedData& main, const std::vector<double>& directions) {
     const auto& sentences = data_.speech->sentences;
     const bool choose = sentences.size() >= kLeastToChoose;
     std::vector<float> kept = frame_weights(*data_.speech, own_.rare_words);
@@ -138,26 +139,35 @@ class RefinedTrainer {
                        kept.begin() + first + std::ptrdiff_t(sentences[s].frames),
                        held.begin() + first);
     }
-    CurveSums sums = sum_curves(data_, space, dominance, kept);
-    SquareMatrix work;
-    RidgeChoice choice{own_.ridge > 0 ? own_.ridge : kUsualRidge, {}};
+    const TermColumns columns = shared_columns(data_, space);
+    const std::size_t k = data_.controls;
+    CurveSums sums(columns.size, k);
+    add_curves(data_, space, columns, dominance, kept, sums);
+    double factor = own_.ridge > 0 ? own_.ridge : kUsualRidge;
     if (choose) {
-      const CurveSums apart = sum_curves(data_, space, dominance, held);
-      bool go_on = true;
-      choice = choose_ridge(sums, apart, space, data_.controls, own_.ridge, options_.threads, work,
-                            [&](double share) {
-                              go_on = run_.report("curves", 0.1 + 0.6 * share);
-                              return go_on;
-                            });
-      if (!go_on) return TrainRun::cancelled();
-      sums.add(apart);
+      const RidgeChooser chooser(sums.gram, space, columns, own_.ridge, options_.threads);
+      const auto trial = [&](const RefinedData& data, std::span<const double> right) {
+        return RidgeTrial{sums.gram, right, data.controls, [&](const auto& solution) {
+                            return errors_on(data, space, columns, dominance, held, solution);
+                          }};
+      };
+      // The main components have all but a hundredth of what there is to compare.
+      const std::vector<double> right = rotated(sums.right, k, directions);
+      factor = chooser.choose(trial(main, right), [&](double share) {
+        return run_.report("curves", 0.1 + 0.6 * share);
+      });
+      if (factor == 0) return TrainRun::cancelled();
+      if (run_.explain)
+        note_explained(controls_, chooser.explained(trial(data_, sums.right), factor), true,
+                       run_.summary);
+      add_curves(data_, space, columns, dominance, held, sums);
     }
     if (!run_.report("curves", 0.7)) return TrainRun::cancelled();
-    run_.summary.ridge = choice.factor;
-    if (choose) note_explained(controls_, choice.explained, true, run_.summary);
-    const auto curves =
-        solve_curves(sums, space, data_.controls, choice.factor, options_.threads, work);
-    return Parameters(refined_parameters(space, curves, mean_, own_, std::move(dominance)));
+    run_.summary.ridge = factor;
+    const auto solution =
+        solve_curves(sums.gram, sums.right, space, columns, k, factor, options_.threads);
+    return Parameters(refined_parameters(space, curves_of(space, columns, solution, k), mean_, own_,
+                                         std::move(dominance)));
   }
 
   const TrainOptions& options_;

@@ -1,7 +1,9 @@
 #include "dam/kinds/refined/solve.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
+#include <utility>
 
 namespace animeme::dam {
 namespace {
@@ -10,33 +12,53 @@ constexpr double kRidgeFactors[] = {2, 1, 0.5};
 /// Error that a larger ridge may cost. Held-out sentences consist of seen words; unseen words need
 /// more regularisation than these suggest (dam/measured.md).
 constexpr double kFirmer = 1.005;
+constexpr double kToChoose = 1e-4;  // accuracy of the solutions that are only compared
 
 }  // namespace
 
-std::vector<double> explained_by(const CurveSums& sums, const std::vector<double>& errors) {
-  std::vector<double> share(errors.size(), 0.0);
+std::vector<double> explained_by(const CurveErrors& errors) {
+  std::vector<double> share(errors.error.size(), 0.0);
   for (std::size_t c = 0; c < share.size(); ++c)
-    if (sums.energy[c] > 0) share[c] = 1 - errors[c] / sums.energy[c];
+    if (errors.energy[c] > 0) share[c] = 1 - errors.error[c] / errors.energy[c];
   return share;
 }
 
-RidgeChoice choose_ridge(const CurveSums& kept, const CurveSums& held, const TermSpace& space,
-                         std::size_t controls, double wanted, int threads, SquareMatrix& work,
-                         const std::function<bool(double)>& go_on) {
-  const std::span<const double> factors =
-      wanted > 0 ? std::span<const double>(&wanted, 1) : std::span<const double>(kRidgeFactors);
-  std::vector<RidgeChoice> choices;
-  std::vector<double> error;
-  for (const double factor : factors) {
-    if (go_on && !go_on(double(error.size()) / double(factors.size()))) return {};
-    const auto curves = solve_curves(kept, space, controls, factor, threads, work);
-    const auto errors = errors_of(held, curves, controls);
-    error.push_back(std::accumulate(errors.begin(), errors.end(), 0.0));
-    choices.push_back({factor, explained_by(held, errors)});
+RidgeChooser::RidgeChooser(const LowerTriangle& kept, const TermSpace& space,
+                           const TermColumns& columns, double wanted, int threads)
+    : space_(space),
+      columns_(columns),
+      factors_(wanted > 0
+                   ? std::vector<double>{wanted}
+                   : std::vector<double>(std::begin(kRidgeFactors), std::end(kRidgeFactors))),
+      // For the middle one, which is near enough to the others.
+      solver_(kept, ridge_of(space, columns, factors_[factors_.size() / 2]), threads),
+      threads_(threads) {}
+
+double RidgeChooser::choose(const RidgeTrial& trial,
+                            const std::function<bool(double)>& go_on) const {
+  if (factors_.size() == 1) return factors_[0];
+  std::vector<double> error, now(columns_.size * trial.controls, 0.0);
+  for (const double factor : factors_) {
+    if (go_on && !go_on(double(error.size()) / double(factors_.size()))) return 0;
+    now = solution(trial, factor, std::move(now));
+    const CurveErrors on_held = trial.errors(now);
+    error.push_back(std::accumulate(on_held.error.begin(), on_held.error.end(), 0.0));
   }
   const double most = kFirmer * *std::min_element(error.begin(), error.end());
   const auto first = std::find_if(error.begin(), error.end(), [&](double e) { return e <= most; });
-  return choices[first == error.end() ? 0 : std::size_t(first - error.begin())];
+  return factors_[first == error.end() ? 0 : std::size_t(first - error.begin())];
+}
+
+std::vector<double> RidgeChooser::explained(const RidgeTrial& trial, double factor) const {
+  return explained_by(trial.errors(
+      solution(trial, factor, std::vector<double>(columns_.size * trial.controls, 0.0))));
+}
+
+std::vector<double> RidgeChooser::solution(const RidgeTrial& trial, double factor,
+                                           std::vector<double> start) const {
+  const std::vector<double> ridge = ridge_of(space_, columns_, factor);
+  if (solver_.solve(ridge, trial.right, trial.controls, kToChoose, start)) return start;
+  return solve_curves(trial.gram, trial.right, space_, columns_, trial.controls, factor, threads_);
 }
 
 std::vector<double> means_from_rest(std::span<const Control> controls) {

@@ -1,5 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 #include "dam/kinds/refined/dominance.h"
 #include "dam/kinds/refined/refined.h"
@@ -33,6 +36,19 @@ Neighbourhood neighbourhood(const Speech& speech, std::size_t j) {
 /// of the surroundings on each side, weighted by a raised cosine. `dam/measured.md` has the choice.
 constexpr double kSharpening = 0.35, kSharpeningReach = 0.12;
 
+/// The row of a key in ascending keys; their number if it is not there. Without branches, which
+/// nobody could foresee: half of the time of a phone went into finding its terms.
+std::size_t row_of_key(std::span<const std::uint32_t> keys, std::uint32_t key) {
+  const std::uint32_t* first = keys.data();
+  std::size_t left = keys.size();
+  while (left > 1) {
+    const std::size_t half = left / 2;
+    first += std::size_t(first[half - 1] < key) * half;
+    left -= half;
+  }
+  return left == 1 && *first == key ? std::size_t(first - keys.data()) : keys.size();
+}
+
 /// Curves of single precision: their error is far below one FAP unit, and twice as many fit
 /// into a vector unit.
 class Voice {
@@ -42,6 +58,8 @@ class Voice {
         parameters_(std::get<RefinedParameters>(speech.model.parameters)),
         controls_(speech.model.controls.size()),
         curve_(kRefinedOrders * controls_),
+        before_(controls_),
+        after_(controls_),
         kernel_(sharpening(speech)),
         first_(double(speech.first_frame) - double(kernel_.size())),
         frames_(speech.frames + 2 * kernel_.size()),
@@ -62,14 +80,23 @@ class Voice {
     const double strength =
         d.strength * duration_strength(o.paced(), phone.duration, parameters_.duration_exponent);
     make_curve(j, since);
+    const double margin = parameters_.time_margin;
     for (std::size_t i = first; i < last; ++i) {
       const double t = speech_.rate.seconds(first_ + double(i));
       const double weight =
           strength * fall_off(d, std::max(0.0, o.start - t), std::max(0.0, t - o.end()));
-      double basis[kRefinedOrders];
-      refined_basis(o.local(t), parameters_.time_margin, basis);
       sum_[i] += weight;
-      add_frame(weight, basis, &blend_[i * controls_]);
+      const double u = o.local(t);
+      float* out = &blend_[i * controls_];
+      if (u <= -margin) {
+        add_pose(float(weight), before_, out);
+      } else if (u >= 1 + margin) {
+        add_pose(float(weight), after_, out);
+      } else {
+        double basis[kRefinedOrders];
+        refined_basis(u, margin, basis);
+        add_frame(weight, basis, out);
+      }
     }
   }
 
@@ -122,19 +149,37 @@ class Voice {
     const auto uses = terms_of(speech_.model.phones, here);
     for (const TermTable& table : parameters_.tables) {
       const TermUse& use = uses[std::size_t(table.term)];
-      const auto at = std::lower_bound(table.keys.begin(), table.keys.end(), use.key);
-      if (at == table.keys.end() || *at != use.key) continue;
-      const std::size_t values = table.orders * controls_;
-      const float* from = &table.values[std::size_t(at - table.keys.begin()) * values];
-      const auto scale = float(use.scale);
-      for (std::size_t i = 0; i < values; ++i) curve_[i] += scale * from[i];
+      if (use.scale == 0) continue;
+      const std::size_t row = row_of_key(table.keys, use.key);
+      if (row == table.keys.size()) continue;
+      add_row(float(use.scale), &table.values[row * table.orders * controls_],
+              table.orders * controls_, curve_.data());
     }
+    // Most frames in reach lie beyond the margins, where the curve stands still.
+    make_pose(-parameters_.time_margin, before_);
+    make_pose(1 + parameters_.time_margin, after_);
   }
 
-  void add_frame(double weight, const double* basis, float* out) const {
+  static void add_row(float scale, const float* __restrict from, std::size_t count,
+                      float* __restrict to) {
+    for (std::size_t i = 0; i < count; ++i) to[i] += scale * from[i];
+  }
+
+  /// The curve at a local time.
+  void make_pose(double u, std::vector<float>& pose) const {
+    std::fill(pose.begin(), pose.end(), 0.0F);
+    double basis[kRefinedOrders];
+    refined_basis(u, parameters_.time_margin, basis);
+    add_frame(1, basis, pose.data());
+  }
+  void add_pose(float weight, const std::vector<float>& pose, float* out) const {
+    add_row(weight, pose.data(), controls_, out);
+  }
+
+  void add_frame(double weight, const double* basis, float* __restrict out) const {
     float w[kRefinedOrders];
     for (std::size_t m = 0; m < kRefinedOrders; ++m) w[m] = float(weight * basis[m]);
-    const float* a = curve_.data();
+    const float* __restrict a = curve_.data();
     const std::size_t k = controls_;
     for (std::size_t c = 0; c < k; ++c)
       out[c] += w[0] * a[c] + w[1] * a[k + c] + w[2] * a[2 * k + c] + w[3] * a[3 * k + c] +
@@ -145,7 +190,8 @@ class Voice {
   const RefinedParameters& parameters_;
   SpeechClock clock_;
   std::size_t controls_;
-  std::vector<float> curve_;
+  std::vector<float> curve_;           // of an occurrence: orders x controls
+  std::vector<float> before_, after_;  // the curve where it stands still
   std::vector<double> kernel_;
   double first_;  // frame; those beside the wanted ones are needed to sharpen these
   std::size_t frames_;

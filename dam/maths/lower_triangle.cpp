@@ -1,4 +1,4 @@
-#include "dam/maths/square_matrix.h"
+#include "dam/maths/lower_triangle.h"
 
 #include <cstdint>
 #include <cstdlib>
@@ -26,7 +26,7 @@ void wish_for_large_pages(void*, std::size_t) {}
 
 }  // namespace
 
-double* SquareMatrix::zeros(std::size_t count) {
+double* LowerTriangle::zeros(std::size_t count) {
   // Large blocks come from the system as zeros; nobody writes them once more.
   void* memory = std::calloc(count + 1, sizeof(double));
   if (memory == nullptr) throw std::bad_alloc();
@@ -34,6 +34,6 @@ double* SquareMatrix::zeros(std::size_t count) {
   return static_cast<double*>(memory);
 }
 
-void SquareMatrix::Free::operator()(double* values) const { std::free(values); }
+void LowerTriangle::Free::operator()(double* values) const { std::free(values); }
 
 }  // namespace animeme::dam
