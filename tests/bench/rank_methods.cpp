@@ -16,6 +16,14 @@
 // the frames inside them. All rows of the corpus.
 //
 //     build/release/bin/rank_methods grid_s1 --words 12 [--first 1]
+//
+// The method of the paper with modes and widths that all controls share, and of each control alone:
+//
+//     build/release/bin/rank_methods grid_s1 --per-control
+//
+// The speed of the motion by articulator:
+//
+//     build/release/bin/rank_methods grid_s1 --velocity [--others grid_others] [--sharpness 0]
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -33,6 +41,7 @@
 #include "dam/evaluation/evaluate.h"
 #include "dam/evaluation/evaluate_bootstrap.h"
 #include "dam/training/train.h"
+#include "tests/bench/rank_controls.h"
 #include "tests/bench/rank_variants.h"
 
 namespace {
@@ -41,6 +50,8 @@ using namespace animeme;  // NOLINT: a program
 using bench::steps;
 using bench::Variant;
 using bench::variants;
+
+using Sentences = std::vector<dam::Utterance>;
 
 /// Of all that is scored.
 dam::SynthesisOptions g_speaking;
@@ -127,9 +138,59 @@ int run(const std::string& folder, const std::string& others, const std::string&
   return 0;
 }
 
-// ---- cross validation ----
+// ---- single controls ----
 
-using Sentences = std::vector<dam::Utterance>;
+constexpr const char* kColumns[] = {"split", "heldout_word_split"};
+
+int run_per_control(const std::string& folder, const std::string& controls,
+                    std::span<const Variant> methods) {
+  const dam::Corpus corpus = read(folder, controls);
+  std::printf("| method, without closures");
+  for (const char* column : kColumns)
+    std::printf(" | `%s`: shared | each control alone | more (95 %%)", column);
+  std::printf(" |\n|---|---|---|---|---|---|---|\n");
+  for (const Variant& variant : methods) {
+    if (variant.options.method != dam::Method::dam_paper) continue;
+    std::printf("| %s", variant.name.c_str());
+    for (const char* column : kColumns) {
+      const auto rows = dam::select(corpus, column, "train"),
+                 test = dam::select(corpus, column, "test");
+      dam::EvaluateOptions scoring;
+      scoring.synthesis.closure = false;
+      const dam::Model shared = need(dam::train(rows, variant.options));
+      const dam::Evaluation a = need(dam::evaluate(shared, test, scoring));
+      const dam::Evaluation b =
+          need(bench::evaluate_per_control(shared, rows, test, variant.options, scoring));
+      const dam::PairedDifference d = need(dam::paired_difference(b, a));
+      std::printf(" | %.4f | %.4f | %+.1f %% (%+.1f to %+.1f)", a.nrmse, b.nrmse,
+                  100 * d.nrmse.difference / a.nrmse, 100 * d.nrmse.low / a.nrmse,
+                  100 * d.nrmse.high / a.nrmse);
+      std::fflush(stdout);
+    }
+    std::printf(" |\n");
+  }
+  return 0;
+}
+
+int run_velocity(const std::string& folder, const std::string& others,
+                 const std::string& controls) {
+  const dam::Corpus corpus = read(folder, controls);
+  std::printf("%s", bench::velocity_head().c_str());
+  for (const char* column : kColumns) {
+    const dam::Model model = need(dam::train(dam::select(corpus, column, "train")));
+    const auto print = [&](const std::string& name, const Sentences& rows) {
+      const dam::Evaluation e = need(score(model, rows));
+      std::printf("%s", bench::velocity_row(name, e).c_str());
+      std::fflush(stdout);
+    };
+    print(std::string("`") + column + "`", dam::select(corpus, column, "test"));
+    if (!others.empty() && column == kColumns[0])
+      print("other speakers", read(others, controls).utterances);
+  }
+  return 0;
+}
+
+// ---- cross validation ----
 
 struct Fold {
   Sentences train, test;
@@ -391,6 +452,10 @@ int main(int argc, char** argv) {
   app.add_option("--words", words,
                  "Sets of five words to hold out: frames inside words never heard")
       ->check(CLI::Range(2, 1000));
+  bool per_control = false, velocity = false;
+  app.add_flag("--per-control", per_control,
+               "Method of the paper: shared modes and widths, and those of each control alone");
+  app.add_flag("--velocity", velocity, "Speed of the motion of dam by articulator");
   std::size_t first = 100;
   app.add_option("--first", first, "Only so many methods, from the top of the table")
       ->check(CLI::PositiveNumber);
@@ -399,6 +464,8 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   const std::vector<Variant> all = variants();
   const auto methods = std::span(all).first(std::min(first, all.size()));
+  if (per_control) return run_per_control(folder, controls, methods);
+  if (velocity) return run_velocity(folder, others, controls);
   if (words > 0) return run_words(folder, controls, words, methods);
   if (little > 0) return run_little(folder, controls, little);
   return only_steps ? run_steps(folder, controls) : run(folder, others, controls, methods);
