@@ -154,30 +154,11 @@ void subtract_gram(std::span<const double> b, std::size_t rows, std::size_t n, d
   columns_of(gram, n).noalias() -= scale * columns.transpose() * columns;
 }
 
-void subtract_gram_of_rows(std::span<const double> b, std::size_t rows, std::size_t n,
-                           std::span<double> gram) {
-  columns_of(gram, n).selfadjointView<Eigen::Lower>().rankUpdate(rows_of(b, rows).transpose(), -1);
-}
-
-void subtract_product_of_rows(std::span<const double> a, std::span<const double> b,
-                              std::size_t rows, std::span<double> out) {
-  const Eigen::Map<const RowMatrix> left = rows_of(a, rows);
-  rows_of(out, std::size_t(left.cols())).noalias() -= left.transpose() * rows_of(b, rows);
-}
-
 void subtract_product(std::span<const double> a, std::span<const double> x, double scale,
                       std::span<double> out) {
   const Eigen::Map<const Eigen::RowVectorXd> row(x.data(), Index(x.size()));
   Eigen::Map<Eigen::VectorXd>(out.data(), Index(out.size())).noalias() -=
       scale * rows_of(a, out.size()) * row.transpose();
-}
-
-std::vector<double> multiply_symmetric(std::span<const double> a, std::size_t n,
-                                       std::span<const double> b) {
-  std::vector<double> product(b.size());
-  rows_of(std::span<double>(product), n) =
-      columns_of(a, n).selfadjointView<Eigen::Lower>() * rows_of(b, n);
-  return product;
 }
 
 }  // namespace animeme::dam

@@ -88,21 +88,8 @@ Eigenvectors symmetric_eigenvectors(std::span<const double> matrix, std::size_t 
 void subtract_gram(std::span<const double> b, std::size_t rows, std::size_t n, double scale,
                    std::span<double> gram);
 
-/// The lower triangle of gram -= B^T B; B: rows x n, row by row.
-void subtract_gram_of_rows(std::span<const double> b, std::size_t rows, std::size_t n,
-                           std::span<double> gram);
-
-/// out -= A^T B; A: rows x n, B: rows x k, out: n x k, all row by row.
-void subtract_product_of_rows(std::span<const double> a, std::span<const double> b,
-                              std::size_t rows, std::span<double> out);
-
 /// out -= scale * A x; A: out.size() x x.size(), row by row.
 void subtract_product(std::span<const double> a, std::span<const double> x, double scale,
                       std::span<double> out);
-
-/// A B for a symmetric A (n x n, of which the lower triangle counts); B and the result n x k, row
-/// by row.
-std::vector<double> multiply_symmetric(std::span<const double> a, std::size_t n,
-                                       std::span<const double> b);
 
 }  // namespace animeme::dam
