@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "dam/script/ipa_letters_internal.h"
 #include "dam/script/phones.h"
@@ -294,6 +295,35 @@ bool can_be_aspirated(const Features& f) {
 }
 
 }  // namespace
+
+std::string x_sampa_to_ipa(std::string_view text) {
+  constexpr std::pair<std::u32string_view, char32_t> kMarks[] = {
+      {U"\"", U'ˈ'},      {U"%", U'ˌ'},       {U":\\", U'ˑ'},     {U":", U'ː'}, {U"~", U'\u0303'},
+      {U"=", U'\u0329'},  {U"_h", U'ʰ'},      {U"_j", U'ʲ'},      {U"'", U'ʲ'}, {U"g", U'ɡ'},
+      {U"_~", U'\u0303'}, {U"_=", U'\u0329'}, {U"_}", U'\u031A'}, {U"`", U'˞'}, {U"_d", U'\u032A'}};
+  constexpr std::u32string_view kOtherMarks = U"AaBceFGHklLMmNnqRTtXx?<>/";
+  const std::u32string codes = code_points(text);
+  std::string out;
+  for (std::size_t at = 0; at < codes.size();) {
+    const std::u32string_view rest = std::u32string_view(codes).substr(at);
+    const auto mark = std::find_if(std::begin(kMarks), std::end(kMarks),
+                                   [&](const auto& row) { return rest.starts_with(row.first); });
+    const XSampa* letter = longest_x_sampa(rest);
+    if (letter != nullptr) {
+      append_utf8(out, letter->ipa);
+      at += letter->text.size();
+    } else if (mark != std::end(kMarks)) {
+      append_utf8(out, mark->second);
+      at += mark->first.size();
+    } else if (rest[0] == U'_') {  // a mark that nobody hears, or a tie
+      at += rest.size() > 1 && kOtherMarks.find(rest[1]) != kOtherMarks.npos ? 2 : 1;
+    } else {
+      if (rest[0] != U'-') append_utf8(out, rest[0]);
+      ++at;
+    }
+  }
+  return out;
+}
 
 Result<std::vector<IpaSound>> parse_ipa_sounds(std::string_view text, std::size_t most_bytes) {
   if (text.size() > most_bytes) {

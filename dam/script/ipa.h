@@ -13,6 +13,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -37,6 +38,9 @@ struct IpaPhone {
 /// not_found (an unknown letter, named in the message), out_of_range (more than `most_bytes`: not
 /// one segment; a word may have more).
 Result<std::vector<IpaPhone>> parse_ipa(std::string_view text, std::size_t most_bytes = 64);
+
+/// X-SAMPA in letters of the IPA, stress, length and ties included; what is no X-SAMPA stays.
+std::string x_sampa_to_ipa(std::string_view text);
 
 /// A phone of an IPA string, with the sound that it replaces.
 struct IpaSound {

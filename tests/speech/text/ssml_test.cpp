@@ -57,6 +57,20 @@ TEST(Ssml, ItemsInOrder) {
   EXPECT_TRUE(d.warnings.empty());
 }
 
+TEST(Ssml, PhonemesOfTwoAlphabets) {
+  SKIP_WITHOUT_EXPAT();
+  const Document d = read(
+      "<speak><phoneme alphabet='x-sampa' ph='pI&quot;kA:n'>a</phoneme> "
+      "<phoneme alphabet='X-SAMPA' ph='t_SEn@_r'>b</phoneme> "
+      "<phoneme alphabet='IPA' ph='ə'>c</phoneme> <phoneme ph='ɪ'>d</phoneme></speak>");
+  std::vector<std::string> ipa;
+  for (const Item& item : d.items) {
+    if (!item.ipa.empty()) ipa.push_back(item.ipa);
+  }
+  EXPECT_EQ(ipa, (std::vector<std::string>{"pɪˈkɑːn", "tʃɛnə\u031D", "ə", "ɪ"}));
+  EXPECT_TRUE(d.warnings.empty());
+}
+
 TEST(Ssml, LanguagesAreInherited) {
   SKIP_WITHOUT_EXPAT();
   const Document d = read(

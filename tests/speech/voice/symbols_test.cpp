@@ -131,6 +131,37 @@ std::string phones_of(const std::vector<VoiceSymbol>& symbols, std::string_view 
   return "not there";
 }
 
+// Alone they are at the end of a word, where German has no b and English no short i.
+TEST(Symbols, AreWhatTheirNamesSay) {
+  const auto german = symbols_of("de");
+  if (german.empty()) GTEST_SKIP() << "built without espeak-ng";
+  EXPECT_EQ(phones_of(german, "b"), "B");
+  EXPECT_EQ(phones_of(german, "d"), "D");
+  EXPECT_EQ(phones_of(german, "p"), "P");
+  const auto english = symbols_of("en");
+  EXPECT_EQ(phones_of(english, "I"), "IH");
+  EXPECT_EQ(phones_of(english, "i:"), "IY");
+}
+
+TEST(Symbols, EveryLetterOfTheIpaIsSaidSomehow) {
+  if (symbols_of("en").empty()) GTEST_SKIP() << "built without espeak-ng";
+  const VoiceOptions options;
+  std::vector<std::string> replaced;
+  for (const char* own : {"pɪˈkɑːn", "θɪŋk", "bɜːd", "ˈlɪtəl"}) {
+    EXPECT_NE(mnemonics_of("gmw/en-US", own, options, &replaced), "") << own;
+    EXPECT_TRUE(replaced.empty()) << own << ": " << replaced[0];
+  }
+  const std::string letters = "ʈɖqɢɱɴʙⱱɽɸβʂʐçʝɣχʁħʕɦɬɮʋɻɰɭʎʟʘǀǃǂǁɓɗʄɠʛʍɥʜʢʡɕʑɺɧyɨʉɯʏøɘɵɤœɞɐɶɒɝɚ";
+  EXPECT_NE(mnemonics_of("gmw/en-US", letters, options, &replaced), "");
+  EXPECT_GT(replaced.size(), 30u);
+  for (const std::string& one : replaced) EXPECT_FALSE(one.ends_with("as nothing")) << one;
+  replaced.clear();
+  EXPECT_NE(mnemonics_of("gmw/en-US", "ʙiː", options, &replaced), "");
+  ASSERT_EQ(replaced.size(), 1u);
+  EXPECT_TRUE(replaced[0].starts_with("ʙ as ")) << replaced[0];
+  EXPECT_EQ(mnemonics_of("gmw/en-US", "%", options), "");
+}
+
 TEST(Symbols, LipsOfLanguages) {
   const auto russian = symbols_of("ru");
   if (russian.empty()) GTEST_SKIP() << "built without espeak-ng";

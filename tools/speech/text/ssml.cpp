@@ -7,6 +7,7 @@
 #include <memory>
 #include <set>
 
+#include "dam/script/ipa.h"
 #include "dam/script/script_text_internal.h"
 #include "tools/speech/text/spoken_text.h"
 #include "tools/speech/text/ssml_values.h"
@@ -147,8 +148,11 @@ class SsmlReader {
       item.alias = code_points(value(attributes, "alias"));
     } else if (name == "phoneme") {
       const std::string alphabet = value(attributes, "alphabet");
-      if (alphabet == "ipa" || alphabet.empty()) {
+      const std::string known = dam::lower_case(alphabet);
+      if (known == "ipa" || alphabet.empty()) {
         item.ipa = value(attributes, "ph");
+      } else if (known == "x-sampa" || known == "sampa") {
+        item.ipa = dam::x_sampa_to_ipa(value(attributes, "ph"));
       } else {
         warn("<phoneme alphabet=\"" + alphabet + "\"> is not known, its text is spoken");
       }

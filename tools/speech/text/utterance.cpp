@@ -258,14 +258,22 @@ class Maker {
 
   Result<void> add_ipa(const Item& item, const Passage& passage) {
     const Speaker& speaker = speakers_.list[passage.speaker];
-    const std::string names = helpers_.mnemonics ? helpers_.mnemonics(speaker, item.ipa) : "";
+    std::vector<std::string> replaced;
+    const std::string names =
+        helpers_.mnemonics ? helpers_.mnemonics(speaker, item.ipa, replaced) : "";
     if (names.empty()) {
-      out_.warnings.push_back("<phoneme ph=\"" + item.ipa + "\"> has sounds that the voice " +
-                              speaker.name + " does not have; its text is spoken");
+      out_.warnings.push_back("<phoneme ph=\"" + item.ipa + "\"> is no sound of the voice " +
+                              speaker.name + "; its text is spoken");
       auto read = read_passage(passage);
       if (!read) return read.error();
       emit(*read, passage.speaker, item.manner);
       return {};
+    }
+    std::string list;
+    for (const std::string& one : replaced) list += (list.empty() ? "" : ", ") + one;
+    if (!list.empty()) {
+      out_.warnings.push_back("<phoneme ph=\"" + item.ipa + "\"> has sounds that the voice " +
+                              speaker.name + " does not have; it says " + list);
     }
     out_.mnemonics = true;
     SpokenText said;

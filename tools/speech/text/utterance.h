@@ -38,8 +38,11 @@ struct Utterance {
 struct Helpers {
   /// Finds the voice for a name in the document, a language or a variant, in `language`.
   std::function<std::optional<Speaker>(const std::string& language, const std::string& voice)> find;
-  /// Converts IPA to the phoneme names of a voice; empty if it lacks one.
-  std::function<std::string(const Speaker& speaker, const std::string& ipa)> mnemonics;
+  /// Converts IPA to the phoneme names of a voice; empty if nothing of it is a sound. `replaced`
+  /// receives what the voice lacks, with what is said for it: "ɝ as ɜː".
+  std::function<std::string(const Speaker& speaker, const std::string& ipa,
+                            std::vector<std::string>& replaced)>
+      mnemonics;
 };
 
 /// Makes an utterance from plain text or from an SSML document (detected by is_ssml()). Plain text

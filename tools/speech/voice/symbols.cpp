@@ -1,10 +1,13 @@
 #include "tools/speech/voice/symbols.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
+#include <span>
 
 #include "dam/script/phones.h"
+#include "dam/script/script_text_internal.h"
 #include "tools/speech/voice/phoneme_table.h"
 #include "tools/speech/voice/voice_job.h"
 
@@ -56,6 +59,75 @@ bool says(const VoiceSymbol& symbol, Test test) {
   });
 }
 
+// Phonemes that are changed at the end of a word are looked at in front of these.
+struct Behind {
+  std::string_view mnemonic, ipa;
+};
+constexpr Behind kBehind[] = {{"@", "ə"}, {"t", "t"}};
+
+std::vector<std::string_view> phones_named(std::string_view ipa) {
+  std::vector<std::string_view> labels;
+  const auto sounds = dam::parse_ipa_sounds(ipa);
+  for (std::size_t i = 0; sounds && i < sounds->size(); ++i) labels.push_back((*sounds)[i].label);
+  return labels;
+}
+
+// Of what a voice says for a phoneme, that which has the name of it: "b" of German is p by itself.
+std::string as_named(const std::string& mnemonic, std::string alone,
+                     std::span<const RawSpeech> in_front) {
+  const auto name = phones_named(mnemonic);
+  if (name.empty() || phones_named(alone) == name) return alone;
+  for (std::size_t i = 0; i < in_front.size(); ++i) {
+    std::string ipa = joined(in_front[i]);
+    if (!ipa.ends_with(kBehind[i].ipa)) continue;
+    ipa.resize(ipa.size() - kBehind[i].ipa.size());
+    if (phones_named(ipa) == name) return ipa;
+  }
+  return alone;
+}
+
+// How different two sounds are for the ear.
+double sound_distance(const dam::Features& a, const dam::Features& b) {
+  constexpr double kOtherKind = 10, kManner = 1, kPlace = 0.3, kVoice = 0.6, kRhotic = 0.7;
+  if (is_vowel(a) != is_vowel(b)) return kOtherKind;
+  double distance = std::abs(a.rounding - b.rounding) + (a.rhotic != b.rhotic ? kRhotic : 0);
+  if (is_vowel(a)) {
+    return distance + 2 * std::abs(a.height - b.height) + 1.5 * std::abs(a.backness - b.backness);
+  }
+  distance += (a.manner != b.manner ? kManner : 0) + (a.voiced != b.voiced ? kVoice : 0);
+  return distance + kPlace * std::abs(double(a.place) - double(b.place));
+}
+
+const VoiceSymbol* nearest_symbol(const std::vector<VoiceSymbol>& symbols,
+                                  const dam::Features& sound) {
+  const VoiceSymbol* best = nullptr;
+  double least = 0;
+  for (const VoiceSymbol& symbol : symbols) {
+    if (symbol.sounds.size() != 1 || symbol.sounds[0].heard.size() != 1) continue;
+    // Of those that sound alike the plain one: "r" and not "r/2".
+    const double distance =
+        sound_distance(symbol.sounds[0].heard[0], sound) + 0.001 * double(symbol.mnemonic.size());
+    if (best == nullptr || distance < least) {
+      best = &symbol;
+      least = distance;
+    }
+  }
+  return best;
+}
+
+// A letter with the marks behind it.
+std::string_view letter_with_marks(std::string_view ipa) {
+  std::string_view rest = ipa;
+  dam::take_code_point(rest);
+  while (!rest.empty()) {
+    std::string_view ahead = rest;
+    const char32_t code = dam::take_code_point(ahead);
+    if ((code < 0x2B0 || code > 0x36F) || code == U'ˈ' || code == U'ˌ' || code == U'ː') break;
+    rest = ahead;
+  }
+  return ipa.substr(0, ipa.size() - rest.size());
+}
+
 bool closes(const dam::PhoneInfo& phone) { return phone.bilabial; }
 bool rounds(const dam::PhoneInfo& phone) { return phone.rounded; }
 
@@ -75,13 +147,25 @@ Result<std::vector<VoiceSymbol>> voice_symbols(const VoiceOptions& options) {
   job.voice = voice->identifier;
   job.options = options;
   job.mnemonics = true;
-  for (const PhonemeName& phoneme : *phonemes) job.texts.push_back("[[" + phoneme.mnemonic + "]]");
+  for (const PhonemeName& phoneme : *phonemes) {
+    job.texts.push_back("[[" + phoneme.mnemonic + "]]");
+    for (const Behind& behind : kBehind) {
+      job.texts.push_back("[[" + phoneme.mnemonic + "|" + std::string(behind.mnemonic) + "]]");
+    }
+  }
   const auto spoken = run_voice(job);
   if (!spoken) return spoken.error();
   std::vector<VoiceSymbol> symbols;
   for (std::size_t i = 0; i < phonemes->size(); ++i) {
     const PhonemeName& phoneme = (*phonemes)[i];
-    VoiceSymbol symbol{phoneme.mnemonic, joined(spoken->speech[i]), phoneme.bilabial, true, {}};
+    const std::span<const RawSpeech> speech(spoken->speech);
+    constexpr std::size_t kTexts = 1 + std::size(kBehind);
+    const auto in_front = speech.subspan(i * kTexts + 1, std::size(kBehind));
+    VoiceSymbol symbol{phoneme.mnemonic,
+                       as_named(phoneme.mnemonic, joined(speech[i * kTexts]), in_front),
+                       phoneme.bilabial,
+                       true,
+                       {}};
     auto sounds = dam::parse_ipa_sounds(symbol.ipa);
     symbol.known = sounds.has_value();
     if (sounds) symbol.sounds = *std::move(sounds);
@@ -91,12 +175,13 @@ Result<std::vector<VoiceSymbol>> voice_symbols(const VoiceOptions& options) {
 }
 
 std::string mnemonics_of(const std::string& voice, std::string_view ipa,
-                         const VoiceOptions& options) {
+                         const VoiceOptions& options, std::vector<std::string>* replaced) {
   VoiceOptions wanted = options;
   wanted.language = voice;
   const auto symbols = voice_symbols(wanted);
   if (!symbols) return {};
   std::string out;
+  bool any = false;
   while (!ipa.empty()) {
     std::string_view best, name;
     const auto consider = [&](std::string_view text, std::string_view mnemonic) {
@@ -111,11 +196,31 @@ std::string mnemonics_of(const std::string& voice, std::string_view ipa,
         {"ˈ", "'"}, {"ˌ", ","},  {".", ""}, {"ː", ":"},    {"g", "g"},
         {"r", "r"}, {" ", "||"}, {"‿", ""}, {"\u0361", ""}};
     for (const auto& [text, mnemonic] : kMarks) consider(text, mnemonic);
-    if (best.empty()) return {};
-    out += name;
-    ipa.remove_prefix(best.size());
+    if (!best.empty()) {
+      out += name;
+      any = any || !name.empty();
+      ipa.remove_prefix(best.size());
+      continue;
+    }
+    const std::string_view letter = letter_with_marks(ipa);
+    ipa.remove_prefix(letter.size());
+    const auto sounds = dam::parse_ipa_sounds(letter);
+    std::string instead;
+    for (std::size_t i = 0; sounds && i < sounds->size(); ++i) {
+      for (const dam::Features& heard : (*sounds)[i].heard) {
+        const VoiceSymbol* nearest = nearest_symbol(*symbols, heard);
+        if (nearest == nullptr) continue;
+        out += nearest->mnemonic;
+        instead += nearest->ipa;
+      }
+    }
+    any = any || !instead.empty();
+    // What is only a mark, such as a tone, says nothing.
+    if (replaced != nullptr && !(sounds && sounds->empty())) {
+      replaced->push_back(std::string(letter) + " as " + (instead.empty() ? "nothing" : instead));
+    }
   }
-  return out;
+  return any ? out : std::string();
 }
 
 void add_counts(const SymbolCounts& more, SymbolCounts& all) {

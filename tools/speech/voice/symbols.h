@@ -13,22 +13,25 @@ namespace animeme::voice {
 
 /// A phoneme of a voice.
 struct VoiceSymbol {
-  std::string mnemonic;   ///< espeak-ng's name for it: "tS", "u:"
-  std::string ipa;        ///< what the voice means by it; empty: a mark without a sound of its own
-  bool bilabial = false;  ///< espeak-ng calls it a consonant of both lips
-  bool known = true;      ///< false: a letter of `ipa` is in no table, AX is spoken
+  std::string mnemonic;  ///< espeak-ng's name for it: "tS", "u:"
+  /// What the voice means by it, by itself or, where the end of a word changes it (German b), in
+  /// front of another sound; empty: a mark without a sound of its own.
+  std::string ipa;
+  bool bilabial = false;              ///< espeak-ng calls it a consonant of both lips
+  bool known = true;                  ///< false: a letter of `ipa` is in no table, AX is spoken
   std::vector<dam::IpaSound> sounds;  ///< the phones that are spoken
 };
 
 /// All symbols of a voice: the phonemes of its table in espeak-ng-data, those that it shares with
-/// other languages included, each spoken by itself, so that IPA is what events of speech would say.
+/// other languages included, each spoken, so that IPA is what events of speech would say.
 /// Errors: those of speak_text(); not_found, truncated, syntax (data of another version).
 Result<std::vector<VoiceSymbol>> voice_symbols(const VoiceOptions& options = {});
 
 /// IPA as the names of phonemes of a voice, for [[ ]] of espeak-ng: the longest ones that fit, left
-/// to right. Empty if a letter is none of the voice's sounds.
+/// to right, and the nearest sound for a letter that the voice does not have. `replaced`, if not
+/// null, receives these, "ɝ as ɜː", and what is no sound at all. Empty if there is no sound in it.
 std::string mnemonics_of(const std::string& voice, std::string_view ipa,
-                         const VoiceOptions& options);
+                         const VoiceOptions& options, std::vector<std::string>* replaced = nullptr);
 
 /// How the symbols of a voice are spoken.
 struct SymbolCounts {

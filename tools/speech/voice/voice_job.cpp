@@ -127,8 +127,9 @@ text::Helpers helpers_of(const VoiceOptions& options) {
     }
     return std::nullopt;
   };
-  helpers.mnemonics = [options](const text::Speaker& speaker, const std::string& ipa) {
-    return mnemonics_of(speaker.voice, ipa, options);
+  helpers.mnemonics = [options](const text::Speaker& speaker, const std::string& ipa,
+                                std::vector<std::string>& replaced) {
+    return mnemonics_of(speaker.voice, ipa, options, &replaced);
   };
   return helpers;
 }
