@@ -26,5 +26,29 @@ TEST(WordsOfFile, AreThoseOfAnyScript) {
   std::filesystem::remove(path);
 }
 
+TEST(GetSpoken, MarksOfATextAreNotSaid) {
+  SpokenOptions options;
+  options.has_text = true;
+  std::vector<std::string> warnings;
+  tools::Log log;
+  log.warn = [&](const std::string& warning) { warnings.push_back(warning); };
+  options.text = "Hi Bob. Pam.";
+  const auto plain = get_spoken(options, log);
+  if (!plain && plain.error().code == Code::unsupported) GTEST_SKIP() << plain.error().describe();
+  ASSERT_TRUE(plain) << plain.error().describe();
+  EXPECT_TRUE(warnings.empty());
+  options.text = "[laughs] Hi Bob. (sighs) *giggles* Pam.";
+  const auto spoken = get_spoken(options, log);
+  ASSERT_TRUE(spoken);
+  EXPECT_EQ(spoken->script, plain->script);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0],
+            "the mark \"[laughs]\" is not said (--speak-marks says such marks) (3 in all)");
+  options.script_reading.speak_marks = true;
+  const auto all = get_spoken(options, log);
+  ASSERT_TRUE(all);
+  EXPECT_GT(all->script.phones.size(), plain->script.phones.size() + 8);
+}
+
 }  // namespace spoken_test
 }  // namespace animeme::speech

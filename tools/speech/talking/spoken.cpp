@@ -3,18 +3,32 @@
 #include <utility>
 
 #include "dam/model/builtin.h"
+#include "dam/script/marks.h"
 #include "dam/speaking/readings.h"
 #include "tools/formats/files/cost.h"
 #include "tools/formats/files/file_cache.h"
 #include "tools/formats/files/files.h"
 #include "tools/formats/scripts/script_text.h"
+#include "tools/speech/text/ssml.h"
 
 namespace animeme::speech {
 
 namespace {
 
-Result<Spoken> speak(const SpokenOptions& options, const std::string& text, const tools::Log& log) {
+// A text without the marks of what is no word in it, "(laughs)", unless they are to be said.
+std::string said_of(const std::string& text, const SpokenOptions& options, const tools::Log& log) {
+  if (options.script_reading.speak_marks || text::is_ssml(text)) return text;
+  dam::Unmarked unmarked = dam::without_marks(text, dam::MarksOf::prose);
+  if (unmarked.count == 0) return text;
+  log.warn("the mark \"" + unmarked.mark + "\" is not said (--speak-marks says such marks)" +
+           (unmarked.count > 1 ? " (" + std::to_string(unmarked.count) + " in all)" : ""));
+  return std::move(unmarked.text);
+}
+
+Result<Spoken> speak(const SpokenOptions& options, const std::string& written,
+                     const tools::Log& log) {
   tools::AtStep step(tools::Step::voice);
+  const std::string text = said_of(written, options, log);
   if (!options.tts.empty()) {
     Result<TimedSpeech> timed = run_voice_command(text, voice_command(options), log);
     if (!timed) return timed.error();
@@ -60,7 +74,8 @@ Result<Spoken> follow_script(const SpokenOptions& options, const tools::Log& log
 Result<Spoken> align_voice(const SpokenOptions& options, const tools::Log& log) {
   voice::AlignOptions settings;
   settings.language = options.language;
-  Result<voice::Alignment> aligned = align_file(options.audio, options.transcript, settings, log);
+  Result<voice::Alignment> aligned =
+      align_file(options.audio, said_of(options.transcript, options, log), settings, log);
   if (!aligned) return aligned.error();
   Result<media::Pcm> audio = read_voice(options.audio, log);
   if (!audio) return audio.error();
