@@ -46,6 +46,8 @@ Result<void> validate(const Model& model) {
   if (model.closure_duration && !(std::abs(model.closure_duration->base) <= 10 &&
                                   std::abs(model.closure_duration->slope) <= 100))
     return invalid_model("the duration of its closures is out of range");
+  if (!(model.articulation >= 0 && model.articulation <= kMostArticulation))
+    return invalid_model("its articulation is out of range");
   if (!model.rate.valid()) return invalid_model("its frame rate is zero");
   if (model.controls.empty()) return invalid_model("it has no control");
   for (const Control& c : model.controls)

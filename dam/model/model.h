@@ -53,6 +53,8 @@ std::optional<Method> find_method(std::string_view name);
 /// All methods, in the order of listings.
 std::span<const Method> methods();
 
+inline constexpr double kMostArticulation = 2;  ///< largest Model::articulation
+
 /// One animation control, in its own units (FAP units for FAPs).
 struct Control {
   std::string name;  ///< "fap3_open_jaw", "jawOpen" ...
@@ -268,8 +270,12 @@ struct Model {
   std::vector<ControlLimit> limits;
   std::vector<PhoneModel> phones;  ///< sorted by label
   Parameters parameters;           ///< the alternative of the method
-  std::string attribution;         ///< credits required when the model is passed on
-  std::string provenance;          ///< how the model was made, free text
+  /// SynthesisOptions::articulation that suits it: 0..kMostArticulation. 0, as training leaves it:
+  /// it says what it has learned. That of the built-in model is 1, since its face is nobody's whom
+  /// it is used for.
+  double articulation = 0;
+  std::string attribution;  ///< credits required when the model is passed on
+  std::string provenance;   ///< how the model was made, free text
 
   /// Index of a phone by label, -1 if the model does not know it.
   std::int32_t find_phone(std::string_view label) const;
@@ -283,8 +289,8 @@ struct Model {
 /// with a sentence that names the first violation. read_model() returns only models that pass.
 Result<void> validate(const Model& model);
 
-/// The model file: magic "ANIMEDAM", version 2.2, little endian, CRC-32 of everything.
-/// dam/model/README.md has the layout. The same model gives the same bytes.
+/// The model file: magic "ANIMEDAM", version 2.2 (2.3 with an articulation), little endian, CRC-32
+/// of everything. dam/model/README.md has the layout. The same model gives the same bytes.
 std::vector<std::uint8_t> write_model(const Model& model);
 
 /// Safe for untrusted input: sizes are checked against the available bytes before anything is

@@ -9,7 +9,9 @@
 namespace animeme::dam {
 namespace {
 
-constexpr FileFormat kModelFormat{"ANIMEDAM", 2, 2, "model file", "train the model again"};
+constexpr FileFormat kModelFormat{"ANIMEDAM", 2, 3, "model file", "train the model again"};
+/// What has no articulation is written as before there was one.
+constexpr FileFormat kPlainFormat{"ANIMEDAM", 2, 2, "model file", "train the model again"};
 
 Error damaged_model(const std::string& how) { return damaged_file(kModelFormat, how); }
 
@@ -67,6 +69,7 @@ Result<Model> read_payload(ByteReader& in, bool newer_minor) {
     if (!in.failed() && !read_limits(in, model))
       return damaged_model("limits of a control that does not exist");
   }
+  if (!in.failed() && !in.at_end()) in.get(model.articulation);  // since 2.3
   if (in.failed()) return damaged_model("its parts are larger than the file");
   if (!in.at_end() && !newer_minor) return damaged_model("there is data after the model");
   if (auto ok = validate(model); !ok) return make_error(Code::syntax, ok.error().message);
@@ -89,6 +92,8 @@ std::vector<std::uint8_t> write_model(const Model& model) {
   const ClosureDuration shut = model.closure_duration.value_or(ClosureDuration{});
   body.put(std::uint8_t(model.closure_duration ? 1 : 0), shut.base, shut.slope);
   write_limits(model, body);
+  if (model.articulation == 0) return frame_file(kPlainFormat, body.bytes);
+  body.put(model.articulation);
   return frame_file(kModelFormat, body.bytes);
 }
 

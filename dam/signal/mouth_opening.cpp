@@ -32,40 +32,13 @@ std::optional<MouthOpening::Target> wish_of(const Features& sound, const Opening
   return std::nullopt;
 }
 
-// What a gap is multiplied by.
-double share_of(const MouthOpening::Target& wish, double amount, double style, double gap) {
+// What the opening of the jaw is multiplied by.
+double share_of(const MouthOpening::Target& wish, double amount, double style, double jaw) {
   const double wider = 1 + amount * (wish.wider - 1);
-  const double x = wider * std::max(gap, 0.0) * wish.narrow / style;
-  // Nearly 1 far below the limit, limit / gap far above, without a corner.
+  const double x = wider * std::max(jaw, 0.0) * wish.narrow / style;
+  // Nearly 1 far below the limit, limit / opening far above, without a corner.
   const double narrow = 1 / std::sqrt(std::sqrt(1 + x * x * x * x));
   return wider * (1 + std::min(amount, 1.0) * (narrow - 1));
-}
-
-// One place along the lips: inner channels, outer ones.
-struct LipPlace {
-  std::optional<std::size_t> upper, lower, outer_upper, outer_lower;
-};
-
-std::optional<std::size_t> find_channel(const Signal& signal, int fap) {
-  for (std::size_t c = 0; c < signal.names.size(); ++c) {
-    if (fap_of_channel(signal.names[c]) == fap) return c;
-  }
-  return std::nullopt;
-}
-
-// Each lip has as much of the change as of the gap; one that is drawn over the other has none.
-bool move_lips(const LipPlace& place, double share, const ClosureOptions& follow, std::size_t frame,
-               Signal& signal) {
-  const double upper = signal.at(frame, *place.upper), lower = signal.at(frame, *place.lower);
-  const double gap = -(upper + lower), away = std::max(-upper, 0.0) + std::max(-lower, 0.0);
-  if (!(gap > 0)) return false;
-  const double factor = gap * (share - 1) / away;
-  const double up = factor * std::min(upper, 0.0), low = factor * std::min(lower, 0.0);
-  signal.at(frame, *place.upper) += up;
-  signal.at(frame, *place.lower) += low;
-  if (place.outer_upper) signal.at(frame, *place.outer_upper) += follow.upper_follow * up;
-  if (place.outer_lower) signal.at(frame, *place.outer_lower) += follow.lower_follow * low;
-  return true;
 }
 
 }  // namespace
@@ -112,30 +85,18 @@ MouthOpening::Target MouthOpening::operator()(double time) const {
   return wish;
 }
 
-std::size_t open_mouth(const MouthOpening& opening, double amount, double style, Signal& signal,
-                       const ClosureOptions& follow) {
-  const auto lips = inner_lip_channels(signal.names);
-  if (!lips || !(amount > 0) || !(style > 0)) return 0;
-  constexpr int kFaps[][4] = {{4, 5, 51, 52}, {8, 10, 55, 57}, {9, 11, 56, 58}};
-  std::vector<LipPlace> places;
-  for (const auto& faps : kFaps) {
-    const LipPlace place{find_channel(signal, faps[0]), find_channel(signal, faps[1]),
-                         find_channel(signal, faps[2]), find_channel(signal, faps[3])};
-    if (place.upper && place.lower) places.push_back(place);
-  }
-  const auto jaw = find_channel(signal, 3);
+std::size_t open_mouth(const MouthOpening& opening, double amount, double style, Signal& signal) {
+  if (!(amount > 0) || !(style > 0)) return 0;
   std::size_t changed = 0;
-  for (std::size_t i = 0; i < signal.frames(); ++i) {
-    const MouthOpening::Target wish = opening(signal.time(i));
-    if (!wish.any()) continue;
-    const double share = share_of(wish, amount, style, inner_gap(signal, i, *lips));
-    bool moved = false;
-    for (const LipPlace& place : places) moved |= move_lips(place, share, follow, i, signal);
-    if (jaw && signal.at(i, *jaw) > 0) {
-      signal.at(i, *jaw) *= share;
-      moved = true;
+  for (std::size_t c = 0; c < signal.names.size(); ++c) {
+    if (fap_of_channel(signal.names[c]) != 3) continue;
+    for (std::size_t i = 0; i < signal.frames(); ++i) {
+      double& jaw = signal.at(i, c);
+      const MouthOpening::Target wish = opening(signal.time(i));
+      if (!wish.any() || !(jaw > 0)) continue;
+      jaw *= share_of(wish, amount, style, jaw);
+      ++changed;
     }
-    changed += moved ? 1 : 0;
   }
   return changed;
 }

@@ -67,8 +67,6 @@ std::size_t add_rounding(const LipRounding& rounding, double amount,
   std::vector<std::pair<std::size_t, double>> channels;
   for (std::size_t c = 0; c < signal.names.size(); ++c) {
     const int fap = fap_of_channel(signal.names[c]);
-    if (fap == 6 || fap == 7) channels.emplace_back(c, -options.corners);
-    if (fap == 53 || fap == 54) channels.emplace_back(c, -options.outer_corners);
     if (fap == 16 || fap == 17) channels.emplace_back(c, options.forward);
   }
   if (channels.empty() || amount == 0) return channels.size();

@@ -1,13 +1,10 @@
 /// @file
-/// A rule for lip rounding, which a speaker who rounds little, or a frontal camera, does not show.
+/// A rule for lip rounding: lips forward, which a frontal camera does not show.
 ///
-/// The mouth corners of the built-in model's speaker are each 3.5 % of the mouth's width closer to
-/// each other in UW than in IY, and the forward motion of his lips was not measured (one camera).
-/// On other heads O, U and W are then flat slits. So synthesis adds a gesture: corners inwards and
-/// lips forward, for as long as a rounded sound lasts and a little before and after. This is a
-/// rule, not learned, and off in training and evaluation. With it UW is 0.81 as wide as IY (0.90 as
-/// learned; `test_dam --gtest_filter='Rounding.Uw*'`). Its cost against the recorded speaker, who
-/// does not do so: dam/measured.md, "Articulation rules".
+/// The forward motion of the built-in model's speaker was not measured (one camera). So synthesis
+/// adds it for as long as a rounded sound lasts and a little before and after. The corners are left
+/// as learned: they are each 3.5 % of the mouth's width closer to each other in UW than in IY, as
+/// he has them. This is a rule, not learned, and off in training and evaluation.
 #pragma once
 
 #include <cstddef>
@@ -19,14 +16,12 @@
 
 namespace animeme::dam {
 
-/// Motion of the lips at full rounding, in FAP units; between rest and the poses of visemes
-/// (fap/expand.h: 175 and 440), which are drawn to be distinguished, not to be spoken.
+/// Motion of the lips at full rounding, in FAP units; half of the poses of visemes
+/// (fap/expand.h: 440), which are drawn to be distinguished, not to be spoken.
 struct RoundingOptions {
-  double corners = 45;        ///< FAP 6, 7 inwards, each
-  double outer_corners = 36;  ///< FAP 53, 54 inwards, each
-  double forward = 220;       ///< FAP 16, 17
-  double before = 0.12;       ///< seconds in which the lips round ...
-  double after = 0.09;        ///< ... and release
+  double forward = 220;  ///< FAP 16, 17
+  double before = 0.12;  ///< seconds in which the lips round ...
+  double after = 0.09;   ///< ... and release
 };
 
 /// Target rounding of the lips, 0..1, over time in seconds. Vowels and W, Y, SH and the like have a
@@ -50,8 +45,8 @@ class LipRounding {
   double longest_ = 0;
 };
 
-/// Adds `amount` (1: as in the options) of that gesture to the channels of a signal that are FAP 6,
-/// 7, 16, 17, 53 and 54, scaled by `shown(seconds)`, 0..1. Returns the number of channels; 0: a
+/// Adds `amount` (1: as in the options) of that gesture to the channels of a signal that are FAP 16
+/// and 17, scaled by `shown(seconds)`, 0..1. Returns the number of channels; 0: a
 /// signal without them.
 std::size_t add_rounding(const LipRounding& rounding, double amount,
                          const std::function<double(double)>& shown, Signal& signal,

@@ -54,7 +54,7 @@ double exact_look_ahead(const Model& model) { return reach_of(model) + kClosureR
 
 SpeechStream::SpeechStream(const Model& model, const StreamOptions& options)
     : model_(&model), options_(options), reach_(reach_of(model)) {
-  if (options.synthesis.articulation > 0) reach_ = std::max(reach_, kOpeningReach);
+  if (articulation_of(model, options.synthesis) > 0) reach_ = std::max(reach_, kOpeningReach);
 }
 
 Result<void> SpeechStream::push(const Phone& phone) {

@@ -116,7 +116,8 @@ Result<void> validate(const SynthesisOptions& options) {
     return range("style must lie between 0 and 1.5");
   if (!(options.sharpness >= 0 && options.sharpness <= kMostSharpness))
     return range("sharpness must lie between 0 and 3");
-  if (!(options.articulation >= 0 && options.articulation <= kMostArticulation))
+  const double articulation = options.articulation.value_or(0);
+  if (!(articulation >= 0 && articulation <= kMostArticulation))
     return range("articulation must lie between 0 and 2");
   if (!(options.context_weight >= 0 && options.context_weight <= 1e12))
     return range("context_weight must not be negative");
@@ -144,16 +145,14 @@ Result<Signal> synthesise_frames(const Model& model, const Script& script,
              report);
   const RestGate gate(*spoken, model.pause_edge, options.rest_at_ends, plan.last_frame);
   to_control_units(model, gate, options.style, signal);
-  if (options.articulation > 0) {
-    open_mouth(MouthOpening(script), options.articulation, options.style, signal,
-               closure_options(model));
-  }
+  const double articulation = articulation_of(model, options);
+  if (articulation > 0) open_mouth(MouthOpening(script), articulation, options.style, signal);
   touch_lips(model, script, options, signal, report);
   apply_limits(signal, model.limits);
-  if (options.articulation > 0) {
+  if (articulation > 0) {
     add_rounding(
-        LipRounding(script), options.articulation,
-        [&](double time) { return options.style * gate(time); }, signal);
+        LipRounding(script), articulation, [&](double time) { return options.style * gate(time); },
+        signal);
   }
   return signal;
 }

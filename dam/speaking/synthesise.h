@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,19 +28,23 @@ struct SynthesisOptions {
   /// Method dam: sharpening, which restores the speed of motion that a mean over many sentences
   /// loses. 0: the mean as learned, with the least error; 1: quicker by a tenth; 0..kMostSharpness.
   double sharpness = 1;
-  /// Clearer vowels than learned, for models of FAPs: O, U, W, SH and the like are rounder
-  /// (dam/signal/rounding.h), open vowels wider, close ones and sibilants narrower
-  /// (dam/signal/mouth_opening.h). 0: as learned; 1: on any head O and U are round and A is wider
-  /// than I. 0..kMostArticulation.
-  double articulation = 0;
+  /// Clearer vowels than learned, for models of FAPs: lips forward in O, U, W, SH and the like
+  /// (dam/signal/rounding.h), the jaw lower in open vowels and higher in close ones and sibilants
+  /// (dam/signal/mouth_opening.h). The gap between the lips and their corners stay as learned. 0:
+  /// as learned; 1: by the rules; 0..kMostArticulation; nullopt: Model::articulation.
+  std::optional<double> articulation = 0;
   bool rest_at_ends = true;      ///< first and last frame are the resting mouth
   double context_weight = 1000;  ///< w_c of Eq. 10, >= 0
   double smoothness_weight = 1;  ///< w_s of Eq. 10, >= 0
 };
 
-inline constexpr double kMostStyle = 1.5;       ///< largest SynthesisOptions::style
-inline constexpr double kMostSharpness = 3;     ///< largest SynthesisOptions::sharpness
-inline constexpr double kMostArticulation = 2;  ///< largest SynthesisOptions::articulation
+inline constexpr double kMostStyle = 1.5;    ///< largest SynthesisOptions::style
+inline constexpr double kMostSharpness = 3;  ///< largest SynthesisOptions::sharpness
+
+/// The articulation with which a model speaks.
+inline double articulation_of(const Model& model, const SynthesisOptions& options) {
+  return options.articulation.value_or(model.articulation);
+}
 
 /// Code::invalid_argument with the name and the range of the first bad option.
 Result<void> validate(const SynthesisOptions& options);

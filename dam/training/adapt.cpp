@@ -121,6 +121,7 @@ Result<Model> adapt(const Model& wanted_base, std::span<const Utterance> sentenc
   auto mixed = mixed_model(from, *recipe, telling, options);
   if (!mixed) return mixed.error();
   Model model = std::move(*mixed);
+  model.articulation = 0;  // whoever records a person wants to see that person
   model.rate = all[0]->signal.rate;
   model.limits = control_limits(all, model.controls);
   model.closure_gap = measured_closure_gap(all);

@@ -12,6 +12,10 @@
 //
 //     build/release/bin/rank_methods grid_s1 --little 66
 //
+// Rules: what sharpness, closure and articulation cost, on the test rows and on other speakers.
+//
+//     build/release/bin/rank_methods grid_s1 --rules [--others grid_others]
+//
 // Words never heard: random sets of five words; trained on the sentences without them, scored on
 // the frames inside them. All rows of the corpus.
 //
@@ -186,6 +190,73 @@ int run_velocity(const std::string& folder, const std::string& others,
     print(std::string("`") + column + "`", dam::select(corpus, column, "test"));
     if (!others.empty() && column == kColumns[0])
       print("other speakers", read(others, controls).utterances);
+  }
+  return 0;
+}
+
+// ---- cross validation ----
+
+// ---- rules ----
+
+/// A way of speaking, beside the plain one.
+struct Rule {
+  const char* name;
+  dam::SynthesisOptions options;
+};
+
+std::vector<Rule> rules() {
+  const auto with = [](bool closure, double sharpness, double articulation) {
+    dam::SynthesisOptions options;
+    options.closure = closure;
+    options.sharpness = sharpness;
+    options.articulation = articulation;
+    return options;
+  };
+  return {{"none: as learned", with(false, 0, 0)},
+          {"closure of P B M, F and V", with(true, 0, 0)},
+          {"sharpness 1", with(false, 1, 0)},
+          {"articulation 1: jaw by height, lips forward", with(false, 0, 1)},
+          {"closure and sharpness: default of trained models", with(true, 1, 0)},
+          {"all: default of the built-in model", with(true, 1, 1)}};
+}
+
+/// A row of the table, the difference to the first row in brackets.
+void print_rule(const dam::Evaluation& e, const dam::Evaluation& plain) {
+  std::printf(" | %.4f (%+.4f)", e.nrmse, e.nrmse - plain.nrmse);
+  const auto cell = [&](const char* name) {
+    for (std::size_t i = 0; i < e.measures.size(); ++i)
+      if (e.measures[i].name == name)
+        std::printf(" | %.3f (%+.3f)", e.measures[i].nrmse,
+                    e.measures[i].nrmse - plain.measures[i].nrmse);
+  };
+  for (const char* name : {"inner_gap", "jaw", "width"}) cell(name);
+  std::printf(" | %.3f (%+.3f)", e.gap_correlation, e.gap_correlation - plain.gap_correlation);
+}
+
+int run_rules(const std::string& folder, const std::string& others, const std::string& controls) {
+  const dam::Corpus corpus = read(folder, controls);
+  dam::Corpus other;
+  if (!others.empty()) other = read(others, controls);
+  const dam::Model model = need(dam::train(dam::select(corpus, "split", "train")));
+  Sentences test = dam::select(corpus, "split", "test");
+  for (const auto& [who, rows] :
+       {std::pair{"the recorded speaker", &test}, std::pair{"others", &other.utterances}}) {
+    if (rows->empty()) continue;
+    std::printf(
+        "| %s: rules | NRMSE | inner gap | jaw | width | gap correlation | after gain and offset "
+        "|\n|---|---|---|---|---|---|---|\n",
+        who);
+    std::optional<dam::Evaluation> plain;
+    for (const Rule& rule : rules()) {
+      dam::EvaluateOptions options;
+      options.synthesis = rule.options;
+      const dam::Evaluation e = need(dam::evaluate(model, *rows, options));
+      if (!plain) plain = e;
+      std::printf("| %s", rule.name);
+      print_rule(e, *plain);
+      std::printf(" | %.4f (%+.4f) |\n", e.fitted_nrmse, e.fitted_nrmse - plain->fitted_nrmse);
+    }
+    std::printf("\n");
   }
   return 0;
 }
@@ -445,6 +516,9 @@ int main(int argc, char** argv) {
   bool only_steps = false;
   app.add_flag("--steps", only_steps,
                "Cross validation of the steps to dam inside the training rows");
+  bool only_rules = false;
+  app.add_flag("--rules", only_rules,
+               "What closure, sharpness and articulation cost, on test rows and on --others");
   double little = 0;
   app.add_option("--little", little, "Seconds of speech to train on: little data, five draws")
       ->check(CLI::PositiveNumber);
@@ -467,6 +541,7 @@ int main(int argc, char** argv) {
   if (per_control) return run_per_control(folder, controls, methods);
   if (velocity) return run_velocity(folder, others, controls);
   if (words > 0) return run_words(folder, controls, words, methods);
+  if (only_rules) return run_rules(folder, others, controls);
   if (little > 0) return run_little(folder, controls, little);
   return only_steps ? run_steps(folder, controls) : run(folder, others, controls, methods);
 }

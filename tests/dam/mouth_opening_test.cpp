@@ -61,16 +61,7 @@ Signal spoken(const Script& script, double articulation, double style = 1, int r
   return *signal;
 }
 
-double gap_at(const Signal& signal, std::size_t frame) {
-  return inner_gap(signal, frame, *inner_lip_channels(signal.names));
-}
-
 // FAP units, at the middle of a phone.
-double gap_in(const Signal& signal, const Script& script, std::size_t phone) {
-  const double seconds = middle(script.phones[phone + 1]);
-  return gap_at(signal, std::size_t(std::lround(seconds * signal.rate.frames_per_second())));
-}
-
 double jaw_in(const Signal& signal, const Script& script, std::size_t phone) {
   const double seconds = middle(script.phones[phone + 1]);
   return signal.at(std::size_t(std::lround(seconds * signal.rate.frames_per_second())),
@@ -79,7 +70,7 @@ double jaw_in(const Signal& signal, const Script& script, std::size_t phone) {
 
 TEST(MouthOpening, WhoWantsWhat) {
   const auto alone = [](const std::string& label) { return wish_in_middle({label}, 0); };
-  for (const char* open : {"AA", "AE", "AH", "AO", "EH"}) EXPECT_GT(alone(open).wider, 1.1) << open;
+  for (const char* open : {"AA", "AE", "AH", "AO", "EH"}) EXPECT_GT(alone(open).wider, 1.05) << open;
   for (const char* other : {"IY", "IH", "UW", "UH", "S", "SH", "Y"})
     EXPECT_EQ(alone(other).wider, 1) << other;
   EXPECT_GT(alone("AA").wider, alone("EH").wider);
@@ -96,9 +87,9 @@ TEST(MouthOpening, WhoWantsWhat) {
   // Diphthongs go from one to the other.
   const Script diphthong = script_of({"AY"}, 0.3);
   const MouthOpening mouth(diphthong);
-  EXPECT_GT(mouth(0.45).wider, 1.3);
+  EXPECT_GT(mouth(0.45).wider, 1.15);
   EXPECT_EQ(mouth(0.65).wider, 1);
-  EXPECT_GT(mouth(0.65).narrow, 2 * mouth(0.45).narrow);
+  EXPECT_GT(mouth(0.65).narrow, 1.7 * mouth(0.45).narrow);
   // Nobody speaks.
   EXPECT_FALSE(mouth(0).any());
   EXPECT_FALSE(mouth(100).any());
@@ -126,61 +117,32 @@ TEST(MouthOpening, FollowsTheHeightOfAnyVowel) {
   EXPECT_EQ(of_letter("ʃ").narrow, of_letter("ɕ").narrow) << "teeth";
 }
 
-TEST(MouthOpening, IyIsHalfOfAaAndAaIsWider) {
+TEST(MouthOpening, TheJawFollowsTheVowelAndTheLipsStay) {
   const Script script = script_of({"T", "AA", "T", "IY", "T", "AE", "T", "IH", "S", "AA", "S", "IY",
                                    "SH", "AY", "Z", "UW", "T"},
                                   0.2);
   const Signal learned = spoken(script, 0), now = spoken(script, 1);
   for (const std::size_t aa : {1, 9}) {
+    EXPECT_GT(jaw_in(now, script, aa), 1.02 * jaw_in(learned, script, aa));
+    EXPECT_LT(jaw_in(now, script, aa), OpeningOptions().open);
     for (const std::size_t iy : {3, 11}) {
-      std::cout << "IY of AA: learned " << gap_in(learned, script, iy) / gap_in(learned, script, aa)
-                << ", spoken " << gap_in(now, script, iy) / gap_in(now, script, aa) << "\n";
-      EXPECT_LT(gap_in(now, script, iy), 0.5 * gap_in(now, script, aa));
-      EXPECT_LT(jaw_in(now, script, iy), 0.5 * jaw_in(now, script, aa));
+      EXPECT_LT(jaw_in(now, script, iy), 0.8 * jaw_in(now, script, aa));
+      EXPECT_LE(jaw_in(now, script, iy), jaw_in(learned, script, iy));
     }
-    EXPECT_GT(gap_in(now, script, aa), 1.2 * gap_in(learned, script, aa));
-    EXPECT_LT(gap_in(now, script, aa), OpeningOptions().open);
   }
-  EXPECT_GT(gap_in(now, script, 5), gap_in(learned, script, 5) * 0.95) << "AE";
-  EXPECT_LT(gap_in(now, script, 7), 0.6 * gap_in(now, script, 1)) << "IH";
-  for (const std::size_t closed : {8, 10, 12, 14})
-    EXPECT_LT(gap_in(now, script, closed), 300) << script.phones[closed + 1].label;
-  // Close vowels stay open all the same, and UW is no more than before.
-  EXPECT_GT(gap_in(now, script, 3), 200);
-  EXPECT_LE(gap_in(now, script, 15), gap_in(learned, script, 15));
-  // Larger motion has larger limits.
-  const Signal large = spoken(script, 1, 1.5);
-  EXPECT_NEAR(gap_in(large, script, 3), 1.5 * gap_in(now, script, 3), 1);
-  // More of it: wider vowels, but IY is not shut.
+  for (const std::size_t teeth : {8, 10, 12, 14})
+    EXPECT_LT(jaw_in(now, script, teeth), OpeningOptions().teeth) << script.phones[teeth + 1].label;
+  // Nothing but the jaw and the lips' forward motion changes.
+  for (std::size_t c = 0; c < now.names.size(); ++c) {
+    const int fap = fap_of_channel(now.names[c]);
+    if (fap == 3 || fap == 16 || fap == 17) continue;
+    for (std::size_t i = 0; i < now.frames(); ++i)
+      ASSERT_EQ(now.at(i, c), learned.at(i, c)) << now.names[c];
+  }
+  // More of it: a lower jaw in AA, but IY is not shut.
   const Signal twice = spoken(script, 2);
-  EXPECT_GT(gap_in(twice, script, 1), gap_in(now, script, 1) + 30);
-  EXPECT_GT(gap_in(twice, script, 3), 0.9 * gap_in(now, script, 3));
-}
-
-TEST(MouthOpening, ClosuresStay) {
-  for (const char* vowel : {"AA", "IY", "AE", "UW"}) {
-    const Script script = script_of({"P", vowel, "B", vowel, "M", vowel, "F", vowel, "P"}, 0.12);
-    const Signal learned = spoken(script, 0), now = spoken(script, 1);
-    for (const std::size_t lips : {0, 2, 4, 8}) {
-      const Phone& phone = script.phones[lips + 1];
-      const FrameSpan span = frames_near(now, phone, kClosureSearch);
-      double least = 1e9, was = 1e9;
-      int shut = 0, was_shut = 0;
-      for (std::size_t i = span.first; i < span.last; ++i) {
-        least = std::min(least, gap_at(now, i));
-        was = std::min(was, gap_at(learned, i));
-        shut += gap_at(now, i) < kClosedGap ? 1 : 0;
-        was_shut += gap_at(learned, i) < kClosedGap ? 1 : 0;
-      }
-      EXPECT_LE(least, std::max(was, ClosureOptions().target) + 1e-9) << vowel << phone.label;
-      EXPECT_NEAR(shut, was_shut, 2) << vowel << phone.label << ", frames of 10 ms";
-    }
-    // The lip of an F stays at the teeth, and nothing is done to lips in a pause.
-    const std::size_t lower = channel(now, 5);
-    const auto f = std::size_t(std::lround(middle(script.phones[7]) * 100));
-    EXPECT_NEAR(now.at(f, lower), learned.at(f, lower), 10) << vowel;
-    EXPECT_EQ(gap_at(now, 0), gap_at(learned, 0));
-  }
+  EXPECT_GT(jaw_in(twice, script, 1), jaw_in(now, script, 1) + 5);
+  EXPECT_GT(jaw_in(twice, script, 3), 0.9 * jaw_in(now, script, 3));
 }
 
 TEST(MouthOpening, MovesAsSmoothlyAsWhatIsLearned) {
@@ -206,7 +168,7 @@ TEST(MouthOpening, MovesAsSmoothlyAsWhatIsLearned) {
       most = std::max(most, std::abs(signal.at(i, c) - signal.at(i - 1, c)));
     return 100 * most;  // units per second
   };
-  for (const int fap : {3, 5, 52}) {
+  for (const int fap : {3}) {
     std::cout << "FAP " << fap << " at most " << fastest(learned, fap) << ", now "
               << fastest(now, fap) << " units a second\n";
     EXPECT_LT(fastest(now, fap), 1.4 * fastest(learned, fap)) << fap;
@@ -244,22 +206,45 @@ TEST(MouthOpening, OtherRigsAndStillFaces) {
   rig.values = {0.5, 0.1};
   EXPECT_EQ(open_mouth(mouth, 1, 1, rig), 0u);
   EXPECT_EQ(rig.values[0], 0.5);
-  // Lips alone, without a jaw: at 0.45 s IY is wanted, at 2 s nothing.
-  Signal lips;
-  lips.rate = {100, 1};
-  lips.names = {"fap4_lower_t_midlip", "fap5_raise_b_midlip"};
-  lips.values.assign(2 * 201, -300);
-  EXPECT_GT(open_mouth(mouth, 1, 1, lips), 0u);
-  EXPECT_NEAR(gap_at(lips, 47), OpeningOptions().close, 10);
-  EXPECT_EQ(gap_at(lips, 200), 600);
-  lips.values.assign(2 * 201, -300);
-  EXPECT_EQ(open_mouth(mouth, 0, 1, lips), 0u);
-  EXPECT_EQ(open_mouth(mouth, 1, 0, lips), 0u) << "a mouth at rest";
-  EXPECT_EQ(gap_at(lips, 47), 600);
-  // A lower lip over the upper one is let be.
-  lips.values.assign(2 * 201, 40);
-  open_mouth(mouth, 1, 1, lips);
-  EXPECT_EQ(gap_at(lips, 47), -80);
+  // At 0.45 s IY is wanted, at 2 s nothing.
+  Signal jaw;
+  jaw.rate = {100, 1};
+  jaw.names = {"fap3_open_jaw"};
+  const auto from = [&](double value) { jaw.values.assign(201, value); };
+  from(500);
+  EXPECT_GT(open_mouth(mouth, 1, 1, jaw), 0u);
+  EXPECT_NEAR(jaw.at(47, 0), OpeningOptions().close, 10);
+  EXPECT_EQ(jaw.at(200, 0), 500);
+  from(500);
+  EXPECT_EQ(open_mouth(mouth, 0, 1, jaw), 0u);
+  EXPECT_EQ(open_mouth(mouth, 1, 0, jaw), 0u) << "a mouth at rest";
+  EXPECT_EQ(jaw.at(47, 0), 500);
+  from(-40);
+  EXPECT_EQ(open_mouth(mouth, 1, 1, jaw), 0u) << "clenched";
+  EXPECT_EQ(jaw.at(47, 0), -40);
+}
+
+TEST(MouthOpening, AModelSaysWhatItLearnedUnlessToldOtherwise) {
+  // Somebody who opens IY and S wide, and the built-in model, whose articulation is 1.
+  const Script script = script_of({"T", "IY", "S", "IY", "T", "AA"}, 0.2);
+  SynthesisOptions options;
+  const auto says = [&](const Model& who, std::optional<double> articulation) {
+    options.articulation = articulation;
+    return synthesise(who, script, options)->values;
+  };
+  EXPECT_EQ(says(model(), std::nullopt), says(model(), 1));
+  EXPECT_NE(says(model(), std::nullopt), says(model(), 0));
+  Model own = model();
+  own.articulation = 0;
+  EXPECT_EQ(says(own, std::nullopt), says(own, 0));
+  // It is kept in files, which without it are what they were.
+  EXPECT_EQ(read_model(write_model(model()))->articulation, 1);
+  EXPECT_EQ(read_model(write_model(own))->articulation, 0);
+  EXPECT_EQ(write_model(own).size() + 8, write_model(model()).size());
+  const auto bytes = builtin_model_bytes();
+  EXPECT_TRUE(std::ranges::equal(write_model(own), bytes));
+  own.articulation = 2.5;
+  EXPECT_FALSE(validate(own));
 }
 
 }  // namespace mouth_opening_test

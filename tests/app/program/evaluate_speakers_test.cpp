@@ -2,8 +2,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <string_view>
+
+#include "dam/corpus/corpus.h"
+#include "dam/model/builtin.h"
+#include "dam/signal/closure.h"
+#include "dam/signal/fap_signal.h"
+#include "dam/speaking/synthesise.h"
+#include "dam/training/adapt.h"
+#include "dam/training/train.h"
 #include "tests/app/program/commands.h"
 #include "tests/support/shared.h"
+#include "tools/formats/inspect/warped_speakers.h"
 
 namespace animeme {
 namespace evaluate_speakers_test {
@@ -37,6 +48,64 @@ TEST(EvaluateSpeakers, AdaptingIsNoWorseThanItsIngredients) {
   EXPECT_EQ(report, test::json_of({"evaluate", "builtin", corpus(), "--speakers", corpus(),
                                    "--sentences", "6", "--copies", "4", "--sharpness", "0"}))
       << "the same again";
+}
+
+/// Mean gap between the inner lips in the middle of a phone.
+double gap_in(const dam::Signal& signal, const dam::Script& script, std::string_view label,
+              double& count) {
+  double sum = 0;
+  for (const dam::Phone& phone : script.phones) {
+    if (phone.label != label) continue;
+    const auto frame =
+        std::size_t(std::lround((phone.start + phone.end) / 2 * signal.rate.frames_per_second()));
+    sum += dam::inner_gap(signal, std::min(frame, signal.frames() - 1),
+                          *dam::inner_lip_channels(signal.names));
+    count += 1;
+  }
+  return sum;
+}
+
+// Somebody who opens IY and S wider than AA is left as she is, unless a rule is asked for.
+TEST(EvaluateSpeakers, WideVowelsStayWide) {
+  const auto recorded = dam::read_corpus(corpus());
+  ASSERT_TRUE(recorded);
+  inspect::SpeakerHabits habits = inspect::warped_habits(3)[2];
+  ASSERT_TRUE(habits.wide_iy);
+  habits.noise = 0.1;
+  const auto hers = inspect::warp(recorded->utterances, habits);
+  ASSERT_TRUE(hers);
+  const auto own = dam::train(*hers), adapted = dam::adapt(*dam::builtin_model(), *hers);
+  ASSERT_TRUE(own && adapted);
+  for (const dam::Model* model : {&*own, &*adapted}) {
+    EXPECT_EQ(model->articulation, 0);
+    for (const char* label : {"IY", "S"}) {
+      double was = 0, is = 0, count = 0;
+      for (const dam::Utterance& u : *hers) {
+        dam::SynthesisOptions options;
+        options.rate = u.signal.rate;
+        options.frames = u.signal.frames();
+        options.articulation = std::nullopt;
+        const auto made = dam::synthesise(*model, u.script, options);
+        ASSERT_TRUE(made);
+        was += gap_in(u.signal, u.script, label, count);
+        is += gap_in(*made, u.script, label, count);
+      }
+      EXPECT_GT(is, 0.8 * was) << label;
+      EXPECT_LT(is, 1.2 * was) << label;
+      EXPECT_GT(was / count, 150) << label;
+    }
+  }
+}
+
+TEST(EvaluateSpeakers, RulesHaveAPrice) {
+  const json report =
+      test::json_of({"evaluate", "builtin", corpus(), "--split", "test", "--rules"});
+  ASSERT_EQ(report["rules"].size(), 3u);
+  EXPECT_EQ(report["rules"]["articulation"]["gap_nrmse"], 0) << "the lips are left alone";
+  EXPECT_NE(report["rules"]["articulation"]["jaw_nrmse"], 0);
+  EXPECT_GT(report["rules"]["sharpness"]["nrmse"], 0);
+  const auto text = animeme({"evaluate", "builtin", corpus(), "--split", "test", "--rules"});
+  EXPECT_THAT(text.out, HasSubstr("what a rule adds"));
 }
 
 TEST(EvaluateSpeakers, TextAndErrors) {

@@ -253,6 +253,11 @@ Result<inspect::EvaluationReport> evaluate_all(const EvaluateOptions& options,
   report.system = system->path;
   report.closed_gap = evaluate.score.closed_gap;
   report.evaluation = std::move(*result);
+  if (options.rules && system->model) {
+    auto rules = inspect::rule_costs(*system->model, recorded->utterances, evaluate.score);
+    if (!rules) return rules.error().in_file(corpus.folder);
+    report.rules = std::move(*rules);
+  }
   if (!options.against.empty()) {
     auto done = compare_systems(options, corpus, *pairs, evaluate, report);
     if (!done) return done.error();

@@ -84,7 +84,7 @@ void add_options(OptionTable& cli, EvaluateOptions& options) {
       ->value("0..3=1")
       ->between(0.0, dam::kMostSharpness);
   cli.add("--articulate", options.evaluate.synthesis.articulation,
-          "As of speak: clearer vowels than learned")
+          "As of speak: clearer vowels than learned; 0 unless given")
       ->value("0..2=0")
       ->between(0.0, dam::kMostArticulation);
   cli.add("--against", options.against,
@@ -93,6 +93,9 @@ void add_options(OptionTable& cli, EvaluateOptions& options) {
   cli.add("--draws", options.draws, "Bootstrap draws over sentences")
       ->value("N=1000")
       ->between(1, 1000000);
+  cli.add("--rules", options.rules,
+          "Print what closure, sharpness and articulation each add to the errors of a model")
+      ->excludes("--tracks --folds");
   cli.add("--codec", options.codec, "Print the error of the codec separately, and its bit rate");
   add_coding_options(cli, options.stream);
   for (const char* name : {"--quant", "--rms", "--kbps"}) cli.get(name)->needs("--codec");

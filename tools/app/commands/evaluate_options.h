@@ -29,6 +29,7 @@ struct EvaluateOptions {
   bool no_closure = false;                             ///< --no-closure
   std::string against;                                 ///< --against
   int draws = 1000;                                    ///< --draws
+  bool rules = false;                                  ///< --rules
   bool codec = false;                                  ///< --codec
   StreamSettings stream;                               ///< --quant, --rms, --kbps
   std::string picture;                                 ///< --picture

@@ -4,7 +4,7 @@
 namespace animeme::tools {
 
 void add_motion_options(OptionTable& cli, dam::SynthesisOptions& options) {
-  options.articulation = 1;
+  options.articulation = std::nullopt;
   cli.add("--style", options.style,
           "Intensity of the motion: 0 keeps the mouth at rest, 1 is as learned, 1.5 "
           "exaggerates")
@@ -15,8 +15,9 @@ void add_motion_options(OptionTable& cli, dam::SynthesisOptions& options) {
       ->value("0..3=1")
       ->between(0.0, dam::kMostSharpness);
   cli.add("--articulate", options.articulation,
-          "Clearer vowels than learned: o, u, w rounder, a wider, i narrower; 0 as learned")
-      ->value("0..2=1")
+          "Clearer vowels than learned: lips forward in o, u, w, the jaw lower in a, higher in i "
+          "and s; 0 as learned; default: 1 for the built-in model, 0 for others")
+      ->value("0..2")
       ->between(0.0, dam::kMostArticulation);
 }
 

@@ -8,8 +8,8 @@ namespace animeme::tools {
 
 struct OptionTable;
 
-/// Adds --style, --sharpness and --articulate, with the program's defaults: as learned, but vowels
-/// clearer (SynthesisOptions::articulation is 1).
+/// Adds --style, --sharpness and --articulate, with the program's defaults: the articulation is
+/// that of the model (Model::articulation).
 void add_motion_options(OptionTable& cli, dam::SynthesisOptions& options);
 
 }  // namespace animeme::tools

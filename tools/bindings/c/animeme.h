@@ -326,7 +326,7 @@ typedef struct animeme_speak_options {
   uint32_t reserved;    ///< 0
   double style;         ///< 1; 0..1.5, amount of motion
   double sharpness;     ///< 1; 0..3, quickness
-  double articulation;  ///< 1; 0..2, clarity of vowels
+  double articulation;  ///< -1; 0..2, clarity of vowels; below 0: that of the model
   double tail;          ///< 0; 0..60 seconds after the script
   double idle_motion;  ///< 1; 0..2, brows and head; below 0: no blinks either. animeme_speak() only
   uint64_t seed;       ///< 1; seed of the idle motion

@@ -18,7 +18,8 @@ animeme_speak_options speak_defaults() {
   animeme_speak_options options{};
   options.rate_num = 25;
   options.rate_den = 1;
-  options.style = options.sharpness = options.articulation = options.idle_motion = 1;
+  options.style = options.sharpness = options.idle_motion = 1;
+  options.articulation = -1;
   options.seed = 1;
   options.look_ahead = -1;
   return options;

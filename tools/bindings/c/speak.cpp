@@ -40,7 +40,8 @@ dam::SynthesisOptions synthesis_options(const animeme_speak_options& from) {
   options.rate = fap::make_rate(from.rate_num, from.rate_den);
   options.style = from.style;
   options.sharpness = from.sharpness;
-  options.articulation = from.articulation;
+  options.articulation = std::nullopt;
+  if (!(from.articulation < 0)) options.articulation = from.articulation;
   options.tail = from.tail;
   return options;
 }

@@ -61,8 +61,9 @@ Result<void> move_face(const dam::Model& model, Motion motion, Speech& speech) {
 std::unique_ptr<Speech> speak(const Model& model, const py::object& said, const py::object& audio,
                               const py::object& transcript, const std::string& lang,
                               const py::object& rate, double style, double sharpness,
-                              double articulation, bool closure, std::optional<bool> idle_motion,
-                              std::uint64_t seed, int speed, int pitch, const std::string& tts) {
+                              std::optional<double> articulation, bool closure,
+                              std::optional<bool> idle_motion, std::uint64_t seed, int speed,
+                              int pitch, const std::string& tts) {
   speech::SpokenOptions source;
   std::optional<dam::Script> script;
   if (py::isinstance<py::str>(said)) {
@@ -137,7 +138,7 @@ py::array_t<double> speech_times(const Speech& speech) {
 
 std::unique_ptr<dam::SpeechStream> make_stream(const Model& model, const py::object& rate,
                                                std::optional<double> look_ahead, double style,
-                                               double sharpness, double articulation,
+                                               double sharpness, std::optional<double> articulation,
                                                bool closure) {
   const dam::StreamOptions options{{.rate = rate_of(rate),
                                     .closure = closure,
@@ -159,7 +160,7 @@ void bind_speech_stream(py::module_& module) {
 A frame is returned as soon as no later phone can change it, or earlier with `look_ahead`.)")
       .def(py::init(&make_stream), py::arg("model"), py::kw_only(), py::arg("rate") = 25,
            py::arg("look_ahead") = py::none(), py::arg("style") = 1.0, py::arg("sharpness") = 1.0,
-           py::arg("articulation") = 1.0, py::arg("closure") = true, py::keep_alive<1, 2>(),
+           py::arg("articulation") = py::none(), py::arg("closure") = true, py::keep_alive<1, 2>(),
            R"(A stream that begins at time 0.
 
 model: who speaks.
@@ -226,9 +227,10 @@ path, preset, quant, max_rms, max_bits_per_second, intra_seconds: as for Clip.sa
   model.def("speak", &speak, py::arg("said") = py::none(), py::kw_only(),
             py::arg("audio") = py::none(), py::arg("transcript") = py::none(),
             py::arg("lang") = "en", py::arg("rate") = 25, py::arg("style") = 1.0,
-            py::arg("sharpness") = 1.0, py::arg("articulation") = 1.0, py::arg("closure") = true,
-            py::arg("idle_motion") = py::none(), py::arg("seed") = 1, py::arg("speed") = 175,
-            py::arg("pitch") = 50, py::arg("tts") = "", R"(Speaks: returns a Speech.
+            py::arg("sharpness") = 1.0, py::arg("articulation") = py::none(),
+            py::arg("closure") = true, py::arg("idle_motion") = py::none(), py::arg("seed") = 1,
+            py::arg("speed") = 175, py::arg("pitch") = 50, py::arg("tts") = "",
+            R"(Speaks: returns a Speech.
 
 said: a text, plain or SSML, for a synthetic voice; or phones, tuples (start, end, label[, word]):
     seconds, ARPAbet without stress or "SIL"; None: recognise audio.
@@ -238,7 +240,7 @@ lang: language of the text: "en", "de", "pt-br"; "zh+en": further ones by script
 rate: frames a second.
 style: intensity, 0 keeps the mouth at rest, 1 is as learned, 0..1.5.
 sharpness: quickness, 0 is the mean of sentences, 1 more as people, 0..3.
-articulation: how clearly vowels show, 0 is as learned, 0..2.
+articulation: how clearly vowels show, 0 is as learned, 0..2; None: 1 for the built-in model, 0 for others.
 closure: P, B and M close the lips, F and V reach the teeth.
 idle_motion: blinks, brows and head; None: where the controls of the model are known.
 seed: of the idle motion: another seed, other times of blinks.

@@ -11,7 +11,8 @@ namespace {
 std::unique_ptr<speech::VoiceDrivenFace> make_voice(const Model& model, int sample_rate,
                                                     const std::string& lang, const py::object& rate,
                                                     double delay, double style, double sharpness,
-                                                    double articulation, bool closure) {
+                                                    std::optional<double> articulation,
+                                                    bool closure) {
   const speech::VoiceDrivenFaceOptions options{{.rate = rate_of(rate),
                                                 .closure = closure,
                                                 .style = style,
@@ -53,7 +54,7 @@ A frame is returned when `delay` more seconds of sound have arrived. While the s
 the face moves less.)")
       .def(py::init(&make_voice), py::arg("model"), py::arg("sample_rate"), py::kw_only(),
            py::arg("lang") = "en", py::arg("rate") = 25, py::arg("delay") = 0.25,
-           py::arg("style") = 1.0, py::arg("sharpness") = 1.0, py::arg("articulation") = 1.0,
+           py::arg("style") = 1.0, py::arg("sharpness") = 1.0, py::arg("articulation") = py::none(),
            py::arg("closure") = true, py::keep_alive<1, 2>(),
            R"(A stream that begins with its first sample, at time 0.
 

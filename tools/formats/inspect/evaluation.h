@@ -46,6 +46,20 @@ Result<CodecScore> score_codec(const std::vector<dam::SentencePair>& pairs,
                                const fba::EncodeOptions& coding, const dam::ScoreOptions& scoring,
                                const std::function<void(double)>& progress = {});
 
+/// What one rule of synthesis changes in the errors: with the rule at 1 minus without it, without
+/// any other rule.
+struct RuleCost {
+  std::string rule;            ///< "closure", "sharpness", "articulation"
+  double nrmse = 0;            ///< Evaluation::nrmse
+  double fitted_nrmse = 0;     ///< Evaluation::fitted_nrmse, for speakers of another size
+  double gap_correlation = 0;  ///< Evaluation::gap_correlation
+  double gap = 0, jaw = 0;     ///< NRMSE of the inner gap and of FAP 3; 0 if they are not there
+};
+/// Speaks the recordings without rules and with each of them. Errors: those of dam::evaluate().
+Result<std::vector<RuleCost>> rule_costs(const dam::Model& model,
+                                         std::span<const dam::Utterance> recorded,
+                                         const dam::ScoreOptions& scoring);
+
 /// The complete report.
 struct EvaluationReport {
   std::string system;          ///< its name
@@ -55,6 +69,7 @@ struct EvaluationReport {
   std::optional<dam::PairedDifference> difference;  ///< system minus the other one
   std::size_t compared_controls = 0;                ///< scored controls of both systems
   std::optional<CodecScore> codec;                  ///< nullopt: not requested
+  std::vector<RuleCost> rules;                      ///< empty: not requested
   dam::LeftOut left_out;                            ///< of the recordings
   std::vector<dam::Glitch> glitches;                ///< of the recordings
 };

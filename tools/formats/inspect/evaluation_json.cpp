@@ -176,6 +176,12 @@ std::string evaluation_json(const EvaluationReport& report) {
                        {"l2", difference_json(report.difference->l2)},
                        {"gap_rmse", difference_json(report.difference->gap_rmse)}};
   }
+  for (const RuleCost& rule : report.rules)
+    json["rules"][rule.rule] = {{"nrmse", rule.nrmse},
+                                {"fitted_nrmse", rule.fitted_nrmse},
+                                {"gap_correlation", rule.gap_correlation},
+                                {"gap_nrmse", rule.gap},
+                                {"jaw_nrmse", rule.jaw}};
   if (report.codec) {
     json["codec"] = {{"bytes", report.codec->bytes},
                      {"kbps", report.codec->kbps},

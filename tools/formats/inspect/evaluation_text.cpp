@@ -136,6 +136,16 @@ void add_against(std::string& out, const EvaluationReport& report) {
   if (d.gap_rmse.a > 0 || d.gap_rmse.b > 0) add_difference(out, "gap RMSE", d.gap_rmse, 1);
 }
 
+void add_rules(std::string& out, const EvaluationReport& report) {
+  if (report.rules.empty()) return;
+  out +=
+      "\nwhat a rule adds    NRMSE  after gain and offset  inner gap      jaw  gap correlation\n";
+  for (const RuleCost& rule : report.rules)
+    out += format("  %-15s %+.4f                %+.4f    %+.4f  %+.4f          %+.4f\n",
+                  rule.rule.c_str(), rule.nrmse, rule.fitted_nrmse, rule.gap, rule.jaw,
+                  rule.gap_correlation);
+}
+
 void add_codec(std::string& out, const EvaluationReport& report) {
   if (!report.codec) return;
   const CodecScore& codec = *report.codec;
@@ -205,6 +215,7 @@ std::string evaluation_text(const EvaluationReport& report, bool full) {
   if (!e.breakdown.triphones.empty()) out += format("\n");
   add_context(out, "triphones", e.breakdown.triphones);
   add_context(out, "words", e.breakdown.words);
+  add_rules(out, report);
   add_codec(out, report);
   add_against(out, report);
   if (full) add_tables(out, e);

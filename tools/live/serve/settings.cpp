@@ -82,7 +82,7 @@ class Members {
 HeadSettings::HeadSettings() {
   voice.lead_silence = 0.1;  // time to open the mouth, as for `stream --say`
   voice.tail_silence = 0.3;
-  motion.articulation = 1;
+  motion.articulation = std::nullopt;
   audio = {media::AudioCodec::opus, 48000, 5};
 }
 
@@ -113,7 +113,9 @@ Result<HeadSettings> read_settings(const Json& json, HeadSettings settings) {
   }
   members.number("style", 0, dam::kMostStyle, settings.motion.style);
   members.number("sharpness", 0, dam::kMostSharpness, settings.motion.sharpness);
-  members.number("articulate", 0, dam::kMostArticulation, settings.motion.articulation);
+  double articulation = -1;  // that of the model
+  members.number("articulate", 0, dam::kMostArticulation, articulation);
+  if (articulation >= 0) settings.motion.articulation = articulation;
   members.flag("idle_motion", settings.idle_motion);
   members.number("seed", 0, 1e9, settings.seed);
   members.number("intra_seconds", 0.04, 60, settings.intra_seconds);
@@ -138,7 +140,8 @@ Json settings_json(const HeadSettings& settings) {
           {"rate", fap::format_rate(settings.motion.rate)},
           {"style", settings.motion.style},
           {"sharpness", settings.motion.sharpness},
-          {"articulate", settings.motion.articulation},
+          {"articulate",
+           settings.motion.articulation ? Json(*settings.motion.articulation) : Json(nullptr)},
           {"idle_motion", settings.idle_motion},
           {"seed", settings.seed},
           {"intra_seconds", settings.intra_seconds},

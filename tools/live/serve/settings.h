@@ -29,7 +29,8 @@ struct HeadSettings {
   bool sound = true;             ///< "sound"
   media::AudioSettings audio;    ///< "audio_codec", "audio_bitrate", "audio_effort" (Opus)
 
-  HeadSettings();  ///< Opus with an effort of 5 at 48000 bits a second, articulation 1
+  HeadSettings();  ///< Opus with an effort of 5 at 48000 bits a second, the articulation of the
+                   ///< model
 };
 
 /// Applies `json`, an object, to `settings`. Errors: invalid_argument (an unknown member or an

@@ -62,7 +62,7 @@ Result<fap::Sequence> said(const dam::Script& script) {
   if (!model) return model.error();
   dam::SynthesisOptions options;
   options.rate = {50, 1};
-  options.articulation = 1;
+  options.articulation = std::nullopt;
   const Result<dam::Signal> signal = dam::synthesise(*model, script, options);
   if (!signal) return signal.error();
   const Result<fap::Sequence> clip = dam::to_sequence(*signal);
@@ -164,7 +164,7 @@ Result<std::vector<SpeakRow>> check_speech(const head::Head& head, const head::R
   }
   const double range = full_opening(ruler);
   const double narrower = iy.width > 0 ? 100 * (1 - uw.width / iy.width) : 0;
-  rows.push_back({"UW against IY", "mouth narrower, %", narrower, 15, false});
+  rows.push_back({"UW against IY", "mouth narrower, %", narrower, 100 * kRoundVowel, false});
   rows.push_back({"UW against IY", "lips forward, mm", uw.forward - iy.forward, 0.1, false});
   rows.push_back({"AA", "open, % of a full jawOpen", range > 0 ? 100 * aa.gap / range : 0,
                   100 * kWideOpen, false});
