@@ -40,12 +40,21 @@
 
 namespace animeme::dam {
 
+/// How the word of a phone relates to the word before it. Usually a word is what phones in a row
+/// have in common; two cases differ.
+enum class WordLink : std::uint8_t {
+  automatic,  ///< a new word if its text differs from that of the previous phone, or after a pause
+  again,      ///< a new word with the text of the previous phone: the second "no" of "no no"
+  continued,  ///< after a pause, the same word as before it: "12,50 EUR", said with a pause inside
+};
+
 /// One spoken sound. `label` is upper-case ARPAbet without stress digits ("AA", "P") or "SIL".
 struct Phone {
   double start = 0;   ///< seconds from the start of the audio
   double end = 0;     ///< seconds, > start
   std::string label;  ///< ARPAbet without stress, or SIL
   std::string word;   ///< the word it belongs to; empty: unknown or silence
+  WordLink link = WordLink::automatic;  ///< of `word` to the word before; see words_of()
 
   double duration() const { return end - start; }  ///< seconds, > 0
   friend bool operator==(const Phone&, const Phone&) = default;
@@ -153,14 +162,17 @@ std::string write_textgrid(const Script& script);
 /// labels, and times within a microsecond.
 std::string write_pho(const Script& script);
 
-/// WebVTT: a cue for the speech between two pauses, with the time of each word; phones are lost. If
-/// no word is known the phones are shown. Reading restores words with times within a millisecond.
+/// WebVTT: captions (dam/script/captions.h) with the time of each word; phones are lost. If no word
+/// is known the phones are shown. Reading restores words with times within a millisecond.
 std::string write_webvtt(const Script& script);
+
+/// SubRip: the same captions, without the times of words.
+std::string write_srt(const Script& script);
 
 /// The file extensions that write_script() supports, such as ".tsv".
 std::vector<std::string> script_endings();
 
-/// Writes the format of a file extension in any case: .TextGrid, .tsv, .pho, .vtt; a TextGrid for
+/// Writes the format of a file extension in any case: .TextGrid, .tsv, .pho, .vtt, .srt; a TextGrid for
 /// any other.
 std::string write_script(const Script& script, std::string_view ending);
 

@@ -167,6 +167,7 @@ double usual_duration(std::string_view label) {
 
 void spread_phones(const TimedLabel& word, std::span<const std::string> labels,
                    std::vector<TimedLabel>& out) {
+  const std::size_t first = out.size();
   double total = 0, done = 0;
   for (const std::string& label : labels) total += usual_duration(label);
   double start = word.start;
@@ -176,7 +177,8 @@ void spread_phones(const TimedLabel& word, std::span<const std::string> labels,
     const double end = last ? word.end : word.start + (word.end - word.start) * (done / total);
     if (end > start) {
       out.push_back({start, end, labels[i], word.word.empty() ? word.label : word.word, word.line,
-                     word.column, false, Alphabet::arpabet});
+                     word.column, false, Alphabet::arpabet, word.speaker,
+                     out.size() == first ? word.link : WordLink::automatic});
       start = end;
     }
   }

@@ -12,6 +12,7 @@
 #include "dam/script/script_values_internal.h"
 #include "dam/script/table_text_internal.h"
 #include "dam/script/textgrid.h"
+#include "dam/script/words.h"
 
 namespace animeme::dam {
 namespace {
@@ -182,13 +183,11 @@ void spread_spellings(std::vector<TimedLabel>& labels) {
 
 // The words are in time order in every sane file; in others a word may be missed, no more.
 void add_words(std::vector<TimedLabel>& raw, const TextGridTier& words) {
-  auto word = words.items.begin();
-  for (TimedLabel& phone : raw) {
-    const double middle = 0.5 * (phone.start + phone.end);
-    while (word != words.items.end() && word->end <= middle) ++word;
-    if (word == words.items.end()) return;
-    if (word->start <= middle) phone.word = word->text;
+  std::vector<TimedLabel> labels;
+  for (const TextGridItem& item : words.items) {
+    labels.push_back({item.start, item.end, item.text, {}, item.line, item.column, true});
   }
+  attach_words(raw, labels);
 }
 
 }  // namespace
@@ -290,12 +289,17 @@ TextGrid textgrid_of(const Script& script) {
   for (const Phone& phone : script.phones) {
     const bool silent = phone.label == kSilence;
     phones.items.push_back({phone.start, phone.end, silent ? "" : phone.label, 0, 0});
-    if (!words.items.empty() && words.items.back().text == phone.word) {
-      words.items.back().end = phone.end;
-    } else {
-      words.items.push_back({phone.start, phone.end, phone.word, 0, 0});
-    }
   }
+  // Between words there is an interval without text.
+  const auto pause = [&](double until) {
+    const double from = words.items.empty() ? phones.items.front().start : words.items.back().end;
+    if (until > from) words.items.push_back({from, until, {}, 0, 0});
+  };
+  for (ScriptWord& word : words_of(script)) {
+    pause(word.start);
+    words.items.push_back({word.start, word.end, std::move(word.text), 0, 0});
+  }
+  if (!phones.items.empty()) pause(phones.items.back().end);
   if (!script.phones.empty()) grid.start = std::min(0.0, script.phones.front().start);
   grid.tiers = {std::move(words), std::move(phones)};
   return grid;

@@ -182,6 +182,7 @@ void join_closures(std::vector<TimedLabel>& labels) {
 void append(std::vector<Phone>& phones, Phone phone) {
   const bool silent = phone.label == kSilence;
   phone.word = silent ? std::string() : clean_word(phone.word);
+  if (phone.word.empty()) phone.link = WordLink::automatic;
   if (silent && !phones.empty() && phones.back().label == kSilence) {
     phones.back().end = phone.end;
   } else {
@@ -211,7 +212,8 @@ void append(std::vector<Phone>& phones, const TimedLabel& raw, double start, con
     const double from = i == 0 ? start : phones.back().end;
     share += labels[i].share;
     const double to = i + 1 == labels.size() ? raw.end : start + share * (raw.end - start);
-    if (to > from) append(phones, {from, to, std::string(labels[i].label), raw.word});
+    const WordLink link = i == 0 ? raw.link : WordLink::automatic;
+    if (to > from) append(phones, {from, to, std::string(labels[i].label), raw.word, link});
   }
 }
 

@@ -1,4 +1,5 @@
 // The corpus format: tab separated, columns named by a header line.
+#include <algorithm>
 #include <optional>
 
 #include "dam/script/script_readers_internal.h"
@@ -12,7 +13,11 @@ constexpr std::size_t kAbsent = kMaxColumns;
 
 struct TsvColumns {
   std::size_t start = kAbsent, end = kAbsent, duration = kAbsent, phone = kAbsent, word = kAbsent;
+  std::size_t link = kAbsent;
 };
+
+// Values of the column word_link, which is written only where a script needs it.
+constexpr std::string_view kAgain = "again", kContinued = "continued";
 
 std::vector<std::string_view> split_tabs(std::string_view line) {
   std::vector<std::string_view> fields;
@@ -35,6 +40,7 @@ TsvColumns name_columns(std::string_view header) {
     if (name == "duration_s" || name == "duration") columns.duration = i;
     if (name == "phone" || name == "phoneme" || name == "label") columns.phone = i;
     if (name == "word" || name == "text") columns.word = i;
+    if (name == "word_link") columns.link = i;
   }
   return columns;
 }
@@ -82,6 +88,9 @@ Result<TimedLabel> read_row(const Line& line, const TsvColumns& columns) {
   phone.column = column(fields[at]);
   phone.is_word = words && !phone.label.empty();
   if (!words) phone.word = field_at(fields, columns.word);
+  const std::string_view link = field_at(fields, columns.link);
+  if (link == kAgain) phone.link = WordLink::again;
+  if (link == kContinued) phone.link = WordLink::continued;
   return phone;
 }
 
@@ -123,11 +132,17 @@ Result<Timings> read_tsv(std::string_view text, const ScriptOptions& options) {
 }
 
 std::string write_script_tsv(const Script& script) {
-  std::string out = "start_s\tend_s\tphone\tword\n";
+  const bool links = std::any_of(script.phones.begin(), script.phones.end(),
+                                 [](const Phone& p) { return p.link != WordLink::automatic; });
+  std::string out =
+      links ? "start_s\tend_s\tphone\tword\tword_link\n" : "start_s\tend_s\tphone\tword\n";
   for (const Phone& phone : script.phones) {
     out += format_seconds(phone.start) + '\t' + format_seconds(phone.end) + '\t' + phone.label;
     out += '\t';
     for (const char c : phone.word) out += c == '\t' || c == '\n' || c == '\r' ? ' ' : c;
+    if (links) out += '\t';
+    if (phone.link == WordLink::again) out += kAgain;
+    if (phone.link == WordLink::continued) out += kContinued;
     out += '\n';
   }
   return out;

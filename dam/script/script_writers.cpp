@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "dam/script/captions.h"
 #include "dam/script/script.h"
 #include "dam/script/script_readers_internal.h"
 #include "dam/script/script_text_internal.h"
@@ -19,7 +20,8 @@ struct Writer {
 constexpr Writer kWriters[] = {{".TextGrid", write_textgrid},
                                {".tsv", write_script_tsv},
                                {".pho", write_pho},
-                               {".vtt", write_webvtt}};
+                               {".vtt", write_webvtt},
+                               {".srt", write_srt}};
 
 std::string clock(double seconds) {
   const auto total = std::int64_t(std::llround(seconds * 1000));
@@ -45,37 +47,16 @@ std::string escaped(std::string_view word) {
   return out;
 }
 
-// Phones of one word, or one phone where no word is known.
-struct Spoken {
-  double start = 0, end = 0;
-  std::string_view text;
-};
-
-bool names_words(const Script& script) {
-  return std::any_of(script.phones.begin(), script.phones.end(),
-                     [](const Phone& phone) { return !phone.word.empty(); });
-}
-
-// What is said without a pause.
-std::vector<std::vector<Spoken>> phrases_of(const Script& script) {
-  const bool words = names_words(script);
-  std::vector<std::vector<Spoken>> phrases;
-  bool pause = true;
-  for (const Phone& phone : script.phones) {
-    const std::string_view text = words ? phone.word : phone.label;
-    const bool silent = phone.label == kSilence || text.empty();
-    if (!silent && pause) phrases.emplace_back();
-    if (!silent) {
-      auto& phrase = phrases.back();
-      if (words && !phrase.empty() && phrase.back().text == text) {
-        phrase.back().end = phone.end;
-      } else {
-        phrase.push_back({phone.start, phone.end, text});
-      }
-    }
-    pause = silent;
+// The words of a line with their times. A time after a word says where it ends, if the next one
+// does not begin there.
+void append_line(std::string& out, const std::vector<ScriptWord>& line, double until) {
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const ScriptWord& word = line[i];
+    if (i > 0 && blank_between(line[i - 1].text, word.text)) out += ' ';
+    out += '<' + clock(word.start) + '>' + escaped(word.text);
+    const double next = i + 1 < line.size() ? line[i + 1].start : until;
+    if (clock(next) != clock(word.end)) out += '<' + clock(word.end) + '>';
   }
-  return phrases;
 }
 
 }  // namespace
@@ -92,16 +73,35 @@ std::string write_pho(const Script& script) {
   return out;
 }
 
+std::string caption_webvtt(const Caption& caption) {
+  std::string out;
+  for (std::size_t i = 0; i < caption.lines.size(); ++i) {
+    const bool last = i + 1 == caption.lines.size();
+    if (i > 0) out += '\n';
+    append_line(out, caption.lines[i], last ? caption.end : caption.lines[i + 1].front().start);
+  }
+  return out;
+}
+
 std::string write_webvtt(const Script& script) {
-  const bool words = names_words(script);
+  const bool words = std::any_of(script.phones.begin(), script.phones.end(),
+                                 [](const Phone& phone) { return !phone.word.empty(); });
   std::string out = std::string(words ? "WEBVTT" : kPhonesHeader) + "\n";
-  for (const auto& phrase : phrases_of(script)) {
-    out += "\n" + clock(phrase.front().start) + " --> " + clock(phrase.back().end) + "\n";
-    for (const Spoken& spoken : phrase) {
-      if (&spoken != &phrase.front()) out += " ";
-      out += "<" + clock(spoken.start) + ">" + escaped(spoken.text);
-    }
-    out += "\n";
+  for (const Caption& caption : captions_of(script)) {
+    out += "\n" + clock(caption.start) + " --> " + clock(caption.end) + "\n" +
+           caption_webvtt(caption) + "\n";
+  }
+  return out;
+}
+
+std::string write_srt(const Script& script) {
+  std::string out;
+  int number = 0;
+  for (const Caption& caption : captions_of(script)) {
+    std::string times = clock(caption.start) + " --> " + clock(caption.end);
+    std::replace(times.begin(), times.end(), '.', ',');
+    if (++number > 1) out += '\n';
+    out += std::to_string(number) + "\n" + times + "\n" + caption_text(caption) + "\n";
   }
   return out;
 }

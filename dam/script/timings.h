@@ -32,6 +32,7 @@ struct TimedLabel {
   bool is_word = false;     ///< a word, or several separated by spaces, instead of a phone
   Alphabet alphabet = Alphabet::automatic;  ///< of a phone; automatic: that of Timings
   std::string speaker;                      ///< who says it; empty: unknown
+  WordLink link = WordLink::automatic;      ///< of a phone, as Phone::link
 
   friend bool operator==(const TimedLabel&, const TimedLabel&) = default;
 };

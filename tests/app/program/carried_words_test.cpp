@@ -70,11 +70,16 @@ class CarriedWords : public testing::TestWithParam<const char*> {
   std::string talk_ = dir_ / ("talk" + ending_), bare_ = dir_ / ("bare" + ending_);
 };
 
-TEST_P(CarriedWords, AreTwoTracksUnlessUnwanted) {
-  const bool mkv = ending_ == ".mkv";
-  EXPECT_EQ(tracks(talk_), json::array({json::array({"words", mkv ? "ger" : "deu"}),
-                                        json::array({"phones", "zxx"})}));
+TEST_P(CarriedWords, AreTracksBesideTheirCaptionsUnlessUnwanted) {
+  const std::string german = ending_ == ".mkv" ? "ger" : "deu";
+  json want = {{"words", german}, {"phones", "zxx"}};
+  if (ending_ != ".mp4") want.insert(want.begin(), json::array({"captions", german}));
+  EXPECT_EQ(tracks(talk_), want);
   EXPECT_EQ(tracks(bare_), json::array());
+  const std::string shown = dir_ / ("shown" + ending_);
+  succeeds({"mux", talk_, talk_, "--subtitles", "-o", shown});
+  EXPECT_EQ(tracks(shown)[0][0], "captions");
+  EXPECT_EQ(tracks(shown).size(), 3u);
 }
 
 TEST_P(CarriedWords, OfAScriptWithoutALanguageHaveNone) {
@@ -130,12 +135,14 @@ TEST_P(CarriedWords, GoAlongWithTheFace) {
   succeeds({"speak", "--text", "so", "-o", dir_ / "so.mp4"});
   for (const char* name : {"moved.mp4", "moved.mkv"}) {
     succeeds({"mux", talk_, dir_ / "so.mp4", "-o", dir_ / name});
-    EXPECT_EQ(tracks(dir_ / name).size(), 2U) << name;
+    const bool captions = std::string(name).ends_with(".mkv");
+    EXPECT_EQ(tracks(dir_ / name).size(), captions ? 3U : 2U) << name;
   }
   succeeds({"mux", talk_, dir_ / "so.mp4", "-o", dir_ / "moved.ts"});
   succeeds({"mux", talk_, dir_ / "so.mp4", "--systems", "-o", dir_ / "systems.mp4"});
   succeeds({"render", talk_, "--size", "64x64", "-o", dir_ / "film.mp4"});
-  EXPECT_EQ(tracks(dir_ / "film.mp4").size(), 1U) << "words, which people read";
+  ASSERT_EQ(tracks(dir_ / "film.mp4").size(), 1U);
+  EXPECT_EQ(tracks(dir_ / "film.mp4")[0][0], "captions") << "what people read";
   succeeds({"render", talk_, "--size", "64x64", "-o", dir_ / "film.webm"});
 }
 

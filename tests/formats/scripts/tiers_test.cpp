@@ -75,11 +75,11 @@ TEST(Tiers, OfKnownPrograms) {
   EXPECT_EQ(read(grid({tier("ORT", {"Oh", "no"}), tier("x", {"y"})})), "<Oh> <no>");
   // SPPAS.
   EXPECT_EQ(read(grid({tier("TokensAlign", {"#", "my"}), tier("PhonAlign", {"#", "m", "aI"})})),
-            "#/# m/my aI");
+            "# m/my aI");
   // FAVE.
   EXPECT_EQ(read(grid({tier("Interviewer - phone", {"{BR}", "sp", "B"}),
                        tier("Interviewer - word", {"{BR}", "sp", "Bob"})})),
-            "- sp/sp B/Bob");
+            "- sp B/Bob");
 }
 
 TEST(Tiers, OfSpeakers) {

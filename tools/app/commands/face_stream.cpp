@@ -78,8 +78,12 @@ void add_sound_options(OptionTable& cli, SoundSettings& settings, bool copy) {
 void add_subtitles_option(OptionTable& cli, bool& subtitles) {
   cli.add(
       "--subtitles", subtitles,
-      "mp4: write words and phones as subtitles that players list, as in .mkv and .m3u8; ffmpeg "
-      "then copies the file to .mkv with -c:s srt only");
+      "mp4: add captions, a subtitle track that players list, as in .mkv and .m3u8; ffmpeg then "
+      "copies the file to .mkv with -c:s srt only");
+}
+
+bool shows_captions(const std::string& output, bool subtitles) {
+  return subtitles || extension_of(output) != ".mp4";
 }
 
 media::AudioSettings audio_settings(const SoundSettings& settings, const std::string& path) {

@@ -47,6 +47,9 @@ void add_sound_options(OptionTable& cli, SoundSettings& settings, bool copy);
 /// Adds --subtitles.
 void add_subtitles_option(OptionTable& cli, bool& subtitles);
 
+/// Whether captions go into a container of this name: in mp4 only with --subtitles.
+bool shows_captions(const std::string& output, bool subtitles);
+
 /// For a container of this name.
 media::AudioSettings audio_settings(const SoundSettings& settings, const std::string& path);
 

@@ -100,11 +100,12 @@ Result<int> run(MuxOptions options) {
   std::vector<media::TextTrack> texts;  // go with a face that is spoken to them
   if (!options.mux.systems && media::takes_text(options.output)) {
     texts = speech::carried_tracks(options.face, terminal_log());
+    if (shows_captions(options.output, options.subtitles)) speech::add_captions(texts);
     input.texts = &texts;
   }
   if (!sound->coded && !sound->samples) input.audio_file = &options.audio;
   options.mux.audio = audio_settings(options.sound, options.output);
-  if (!options.subtitles) options.mux.text_track = media::TextTrackType::metadata;
+  options.mux.text_track = media::TextTrackType::metadata;
   if (options.video_track) options.mux.face_track = media::FaceTrackType::video;
   Result<int> written = write_media(options.output, input, options.mux);
   if (!written || *written != kOk || options.preview.empty()) return written;

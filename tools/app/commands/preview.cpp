@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <iterator>
 
-#include "fap/detail/text_scanner.h"
 #include "fap/rate_text.h"
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/face_stream.h"
 #include "tools/app/commands/interrupt.h"
 #include "tools/app/commands/report.h"
+#include "tools/speech/talking/voice_file.h"
 
 namespace animeme::tools {
 
@@ -16,16 +16,16 @@ Result<int> write_preview(const std::string& path, const fap::Sequence& clip,
                           const media::MuxInput& sound, const studio::FilmOptions& options) {
   const Interrupt interrupt;
   ProgressLine line("rendering " + path);
-  // Who looks at a film wants to read its words, not its phones.
-  std::vector<media::TextTrack> words;
+  // Who looks at a film reads captions, not single words and phones.
+  std::vector<media::TextTrack> captions;
   if (sound.texts != nullptr && media::takes_text(path)) {
-    std::copy_if(sound.texts->begin(), sound.texts->end(), std::back_inserter(words),
-                 [](const media::TextTrack& track) {
-                   return fap::detail::lower_case(track.name) == "words";
-                 });
+    captions = *sound.texts;
+    std::erase_if(captions, [](const auto& track) { return track.name == media::kCaptionTrack; });
+    speech::add_captions(captions);
+    std::erase_if(captions, [](const auto& track) { return track.name != media::kCaptionTrack; });
   }
   media::MuxInput tracks = sound;
-  tracks.texts = &words;
+  tracks.texts = &captions;
   const auto film = studio::write_film(
       path, clip, tracks, options, terminal_log(),
       {[&line](double done) { line.update(done); }, [] { return Interrupt::requested(); }});

@@ -136,10 +136,11 @@ Result<int> write_result(const SpeakOptions& options, const fap::Sequence& clip,
   if (audio == nullptr) warn("there is no recorded voice (--audio): the file will be silent");
   media::MuxOptions mux;
   mux.audio = audio_settings(options.sound, options.output);
-  if (!options.subtitles) mux.text_track = media::TextTrackType::metadata;
+  mux.text_track = media::TextTrackType::metadata;
   std::vector<media::TextTrack> texts;
   if (!options.no_words && media::takes_text(options.output)) {
     texts = speech::carried_texts(spoken.script, language_of(options, spoken));
+    if (shows_captions(options.output, options.subtitles)) speech::add_captions(texts);
   }
   const media::MuxInput input{.face = &*units, .audio = audio, .texts = &texts};
   Result<int> written = write_media(options.output, input, mux);
@@ -381,7 +382,7 @@ void add_options(OptionTable& cli, SpeakOptions& options) {
       ->frame_rate()
       ->show_default();
   cli.add("--save-script", options.save_script,
-          "Also write the timed phones: .TextGrid, .tsv, .pho or .vtt")
+          "Also write the timed phones (.TextGrid, .tsv, .pho) or captions (.vtt, .srt)")
       ->output(joined(dam::script_endings(), " "), OutputKind::file);
   add_motion_options(cli, options.motion);
   cli.add("--no-closure", options.no_closure,

@@ -124,6 +124,7 @@ void save_speech(const Speech& speech, const py::object& path, const std::string
   Beside beside;
   if (speech.spoken.audio) beside.sound = &*speech.spoken.audio;
   beside.texts = speech::carried_texts(speech.spoken.script, speech.language);
+  if (tools::extension_of(path_of(path)) != ".mp4") speech::add_captions(beside.texts);
   save(value_of(dam::to_sequence(speech.signal)), path_of(path),
        {preset, quant, max_rms, max_bits_per_second, intra_seconds}, beside);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "dam/script/words.h"
 #include "fap/rate_text.h"
 #include "tools/formats/common/text.h"
 
@@ -179,13 +180,8 @@ std::string utterance_table(const std::vector<SentenceReport>& sentences,
 
 std::string words_of_script(const dam::Script& script) {
   std::string text;
-  const std::string* last = nullptr;
-  for (const dam::Phone& phone : script.phones) {
-    const bool same = last != nullptr && *last == phone.word;
-    last = phone.word.empty() ? nullptr : &phone.word;
-    if (same || phone.word.empty()) continue;
-    text += (text.empty() ? "" : " ") + phone.word;
-  }
+  for (const dam::ScriptWord& word : dam::words_of(script))
+    text += (text.empty() ? "" : " ") + word.text;
   return text;
 }
 

@@ -73,7 +73,8 @@ struct MuxOptions {
   std::vector<std::string>* warnings = nullptr;
   /// mp4, HLS, DASH: type of the face track. A Systems presentation always has a video track.
   FaceTrackType face_track = FaceTrackType::metadata;
-  TextTrackType text_track = TextTrackType::subtitles;  ///< mp4: type of the text tracks
+  /// mp4: type of the text tracks, except the one named kCaptionTrack, which is of subtitles.
+  TextTrackType text_track = TextTrackType::subtitles;
   /// mp4: moov before mdat, so that a player can start while it loads.
   bool faststart = true;
   /// mp4: self-contained fragments, so that a reader can start while the file is still being

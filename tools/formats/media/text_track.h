@@ -23,10 +23,16 @@ namespace animeme::media {
 struct TextCue {
   double start = 0;  ///< seconds, >= 0; 0 is sample 0 of the sound
   double end = 0;    ///< seconds, > start
-  std::string text;  ///< UTF-8, not empty
+  std::string text;  ///< UTF-8, not empty; lines end with '\n', which readers make a blank
+  /// Content of the cue in WebVTT, with tags such as times of words; empty: `text`.
+  std::string webvtt;
 
   friend bool operator==(const TextCue&, const TextCue&) = default;
 };
+
+/// Name of the track that people read; others hold words and phones for programs. In mp4 this one
+/// is a subtitle track whatever MuxOptions::text_track says.
+inline constexpr std::string_view kCaptionTrack = "captions";
 
 /// A sequence of texts.
 struct TextTrack {

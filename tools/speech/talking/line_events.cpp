@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "dam/script/words.h"
 #include "tools/formats/common/json.h"
 
 namespace animeme::speech {
@@ -64,19 +65,19 @@ void LineEvents::begin(const SpokenLine& line, double start, double end) {
     add(std::move(one));
   };
   event(What::started, start, line.text, 0);
-  const std::vector<dam::Phone>& phones = line.speech.script.phones;
-  std::string_view last;
-  for (auto phone = phones.begin(); phone != phones.end(); ++phone) {
-    const double time = start + phone->start;
-    if (!phone->word.empty() && phone->word != last) {
-      auto after = phone;
-      while (after != phones.end() && after->word == phone->word) ++after;
-      event(What::word, time, phone->word, std::prev(after)->end - phone->start);
-      begun.words.emplace_back(time, phone->word);
+  const dam::Script& script = line.speech.script;
+  const std::vector<dam::ScriptWord> words = dam::words_of(script);
+  auto word = words.begin();
+  for (std::size_t i = 0; i < script.phones.size(); ++i) {
+    const dam::Phone& phone = script.phones[i];
+    const double time = start + phone.start;
+    if (word != words.end() && word->first == i) {
+      event(What::word, time, word->text, word->end - word->start);
+      begun.words.emplace_back(time, word->text);
+      ++word;
     }
-    last = phone->word;
-    if (phone->label == dam::kSilence) continue;
-    event(What::phone, time, phone->label, phone->duration());
+    if (phone.label == dam::kSilence) continue;
+    event(What::phone, time, phone.label, phone.duration());
   }
   for (const voice::SpeechMark& mark : line.speech.marks) {
     event(What::mark, start + mark.time, mark.name, 0);

@@ -140,9 +140,11 @@ Result<std::string> words_of_file(const std::string& path, const dam::ScriptOpti
   std::string words;
   const dam::TimedLabel* before = nullptr;
   for (const dam::TimedLabel& label : timings->labels) {
-    // The phones of a word follow each other without a gap.
+    // The phones of a word usually follow each other without a gap.
     const bool same = before != nullptr && !label.is_word && label.word == before->word &&
-                      label.start <= before->end + dam::kTimeTolerance;
+                      label.link != dam::WordLink::again &&
+                      (label.link == dam::WordLink::continued ||
+                       label.start <= before->end + dam::kTimeTolerance);
     before = &label;
     if (!same) words += (label.is_word ? label.label : label.word) + " ";
   }

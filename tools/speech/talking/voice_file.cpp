@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "dam/script/captions.h"
 #include "dam/script/script_finish_internal.h"
 #include "dam/script/script_text_internal.h"
 #include "dam/script/textgrid.h"
@@ -93,11 +94,29 @@ std::vector<media::TextTrack> carried_texts(const dam::Script& script, std::stri
     media::TextTrack track{
         tier.name, tier.name == "words" ? text::language_code(language) : "zxx", {}};
     for (const dam::TextGridItem& item : tier.items) {
-      if (!item.text.empty()) track.cues.push_back({item.start, item.end, item.text});
+      if (!item.text.empty()) track.cues.push_back({item.start, item.end, item.text, {}});
     }
     if (!track.cues.empty()) tracks.push_back(std::move(track));
   }
   return tracks;
+}
+
+void add_captions(std::vector<media::TextTrack>& tracks) {
+  const auto words = std::find_if(tracks.begin(), tracks.end(), [](const auto& track) {
+    return dam::lower_case(track.name) == "words" && !track.cues.empty();
+  });
+  if (words == tracks.end()) return;
+  dam::Script script;
+  for (const media::TextCue& cue : words->cues) {
+    // Captions only look at words and their times.
+    script.phones.push_back({cue.start, cue.end, "AX", cue.text, dam::WordLink::again});
+  }
+  media::TextTrack captions{std::string(media::kCaptionTrack), words->language, {}};
+  for (const dam::Caption& caption : dam::captions_of(script)) {
+    captions.cues.push_back(
+        {caption.start, caption.end, dam::caption_text(caption), dam::caption_webvtt(caption)});
+  }
+  tracks.insert(tracks.begin(), std::move(captions));
 }
 
 std::vector<media::TextTrack> carried_tracks(const std::string& path, const tools::Log& log) {

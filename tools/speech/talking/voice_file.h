@@ -48,6 +48,10 @@ Result<dam::Script> parse_script(const std::string& text, const std::string& pat
 /// omitted.
 std::vector<media::TextTrack> carried_texts(const dam::Script& script, std::string_view language);
 
+/// Puts captions (dam/script/captions.h) of these tracks in front of them, in the language of the
+/// words, as a track media::kCaptionTrack; without words nothing is added.
+void add_captions(std::vector<media::TextTrack>& tracks);
+
 /// Reads these tracks of a file; empty: it has none, or cannot be read again ("-", pipes). If it
 /// has more text than the limit, log.warn is called.
 std::vector<media::TextTrack> carried_tracks(const std::string& path, const tools::Log& log = {});

@@ -98,6 +98,11 @@ SpokenText narrow(const SpokenText& said) {
   return out;
 }
 
+// The characters of an item in the text as written. A pause parts words: "<s>Yes</s><s>No</s>".
+std::u32string source_of(const Item& item) {
+  return item.kind == ItemKind::pause ? std::u32string(U"\n") : item.text;
+}
+
 void replace_brackets(SpokenText& said) {
   std::replace(said.text.begin(), said.text.end(), U'[', U' ');
 }
@@ -126,14 +131,15 @@ class Maker {
     out_.warnings.insert(out_.warnings.end(), document.warnings.begin(), document.warnings.end());
     std::size_t at = 0;
     for (const Item& item : document.items) {
+      const std::size_t first = at;
+      at += source_of(item).size();
       if (item.kind == ItemKind::pause) add_pause(item.seconds);
       if (item.kind == ItemKind::mark) {
         tag("<mark name=\"" + std::to_string(out_.marks.size()) + "\"/>");
         out_.marks.push_back(item.name);
       }
       if (item.kind != ItemKind::text) continue;
-      SpokenText said = as_written(item.text, at);
-      at += item.text.size();
+      SpokenText said = as_written(item.text, first);
       if (!item.alias.empty() && said.size() > 0) said = say_instead(said, utf8(item.alias));
       if (auto done = add_text(item, said); !done) return done;
     }
@@ -346,7 +352,7 @@ Result<Utterance> make_utterance(std::string_view text, Speakers speakers, const
   if (is_ssml(text)) {
     const auto document = read_ssml(text);
     if (!document) return document.error();
-    for (const Item& item : document->items) out.source += item.text;
+    for (const Item& item : document->items) out.source += source_of(item);
     if (auto done = maker.document(*document); !done) return done.error();
   } else {
     out.source = code_points(text);

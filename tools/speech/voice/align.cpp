@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "dam/script/timings.h"
+#include "dam/script/words.h"
 #include "tools/speech/voice/confidence.h"
 #include "tools/speech/voice/denoise.h"
 #include "tools/speech/voice/parted_words.h"
@@ -117,6 +118,7 @@ void warn_of_doubts(Alignment& alignment) {
 void add_script(const std::vector<Segment>& segments, const std::vector<SpokenWord>& words,
                 double duration, Alignment& alignment) {
   dam::Script& script = alignment.script;
+  std::size_t before = kNoWord;
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const Segment& segment = segments[i];
     const double start = i == 0 ? 0.0 : script.phones.empty() ? 0.0 : script.phones.back().end;
@@ -127,9 +129,12 @@ void add_script(const std::vector<Segment>& segments, const std::vector<SpokenWo
     if (silent && !script.phones.empty() && script.phones.back().label == dam::kSilence) {
       script.phones.back().end = end;
     } else {
+      const bool in_word = !silent && segment.word != kNoWord;
+      const bool begins = in_word && segment.word != before;
+      if (in_word) before = segment.word;
       script.phones.push_back(
-          {start, end, segment.label,
-           silent || segment.word == kNoWord ? std::string() : words[segment.word].text});
+          {start, end, segment.label, in_word ? words[segment.word].text : std::string()});
+      if (in_word) dam::link_phone(script.phones, script.phones.size() - 1, begins);
       alignment.confidences.push_back(alignment.approximate ? 0 : rate_phone(segment));
     }
   }

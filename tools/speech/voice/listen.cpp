@@ -5,6 +5,7 @@
 #include <deque>
 #include <span>
 
+#include "dam/script/words.h"
 #include "tools/speech/voice/align.h"
 #include "tools/speech/voice/denoise.h"
 #include "tools/speech/voice/hearing.h"
@@ -269,12 +270,16 @@ void take_words(const std::vector<FoundWord>& words, double seconds, Recognition
     heard.words.push_back(
         {word.text, time_of(word.first), std::min(time_of(word.end), seconds), word.belief});
   }
-  auto word = heard.words.begin();
-  for (dam::Phone& phone : heard.script.phones) {
-    const double middle = 0.5 * (phone.start + phone.end);
+  auto word = heard.words.begin(), last = heard.words.end();
+  std::vector<dam::Phone>& phones = heard.script.phones;
+  for (std::size_t i = 0; i < phones.size(); ++i) {
+    const double middle = 0.5 * (phones[i].start + phones[i].end);
     while (word != heard.words.end() && word->end <= middle) ++word;
     if (word == heard.words.end()) return;
-    if (phone.label != dam::kSilence && word->start <= middle) phone.word = word->text;
+    if (phones[i].label == dam::kSilence || word->start > middle) continue;
+    phones[i].word = word->text;
+    dam::link_phone(phones, i, word != last);
+    last = word;
   }
 }
 

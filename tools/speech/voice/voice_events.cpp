@@ -7,8 +7,9 @@
 
 #include "dam/script/ipa.h"
 #include "dam/script/script_text_internal.h"
+#include "dam/script/words.h"
 #include "tools/speech/text/unicode.h"
-#include "tools/speech/voice/transcript.h"
+#include "tools/speech/voice/written_words.h"
 
 namespace animeme::voice {
 namespace {
@@ -18,14 +19,13 @@ using dam::IpaPhone;
 constexpr int kSilentLevel = 8;            // of 32768: what espeak-ng leaves between sounds
 constexpr double kMaxClosure = 0.2;        // seconds of silence before a burst that are closure
 constexpr double kMaxFirstClosure = 0.08;  // the same after a pause: the rest is rest
-constexpr std::size_t kMostSigns = 3;      // between the place of an event and its word
 constexpr double kMinPhone = 0.01;         // seconds that the phone before keeps
 
 // A stretch of sound with its labels. No labels: silence.
 struct VoicedSegment {
   std::int64_t start = 0, end = 0;
   std::vector<IpaPhone> labels;
-  std::string word;
+  std::size_t word = kNoWritten;
 };
 
 bool is_silent(std::int16_t sample) { return std::abs(int(sample)) <= kSilentLevel; }
@@ -52,31 +52,6 @@ std::vector<IpaPhone> labels_of(std::string_view ipa) {
   return *std::move(parsed);
 }
 
-// The word of the source that an event names.
-std::string word_of(const VoiceEvent& event, const text::Utterance& utterance) {
-  const text::Place place = place_of(event, utterance);
-  const std::u32string& source = utterance.source;
-  std::size_t first = place.first, last = place.last;
-  // After "z. B." espeak-ng reports the word one character early.
-  const auto spoken = [&](std::size_t at) { return text::is_letter_or_digit(source[at]); };
-  std::size_t next = first;
-  while (next < source.size() && !spoken(next)) ++next;
-  if (first < last && next >= last && next < source.size() && next - first <= kMostSigns) {
-    first = next;
-    for (last = next; last < source.size() && spoken(last);) ++last;
-  }
-  // The parts of a number come one by one: "2024", then "024".
-  const auto digit = [&](std::size_t at) { return text::digit_value(source[at]) >= 0; };
-  while (first < last && first > 0 && digit(first) && digit(first - 1)) --first;
-  while (first < last && last < source.size() && digit(last - 1) && digit(last)) ++last;
-  const auto sign = [&](std::size_t at) {
-    return source[at] >= 0x80 && text::kind_of(source[at]) == text::Kind::punctuation;
-  };
-  while (first < last && sign(first)) ++first;
-  while (first < last && sign(last - 1)) --last;
-  return std::string(strip_punctuation(text::utf8(source.substr(first, last - first))));
-}
-
 void add_segment(std::vector<VoicedSegment>& segments, const RawSpeech& raw, VoicedSegment segment,
                  std::string_view ipa) {
   if (segment.end <= segment.start) return;
@@ -85,7 +60,7 @@ void add_segment(std::vector<VoicedSegment>& segments, const RawSpeech& raw, Voi
   if (!pause && !language_switch) segment.labels = labels_of(ipa);
   const bool silent = pause || (segment.labels.empty() &&
                                 is_mostly_silent(raw.samples, segment.start, segment.end));
-  if (silent) segment.word.clear();
+  if (silent) segment.word = kNoWritten;
   if (segment.labels.empty() && !silent && !segments.empty()) {
     segments.back().end = segment.end;  // a mark: the sound before it goes on
   } else {
@@ -93,22 +68,18 @@ void add_segment(std::vector<VoicedSegment>& segments, const RawSpeech& raw, Voi
   }
 }
 
-std::vector<VoicedSegment> cut(const RawSpeech& raw, const text::Utterance& utterance) {
+std::vector<VoicedSegment> cut(const RawSpeech& raw, const WrittenWords& written) {
   const auto size = std::int64_t(raw.samples.size());
   std::vector<VoicedSegment> segments;
-  VoicedSegment current{0, 0, {}, {}};
-  std::string ipa = "_", word;
-  for (const VoiceEvent& event : raw.events) {
-    if (event.kind == EventKind::word) {
-      // Of markup there are words of no length.
-      if (!utterance.markup || event.text_length > 0) word = word_of(event, utterance);
-      continue;
-    }
-    if (event.kind == EventKind::mark) continue;
+  VoicedSegment current;
+  std::string ipa = "_";
+  for (std::size_t i = 0; i < raw.events.size(); ++i) {
+    const VoiceEvent& event = raw.events[i];
+    if (event.kind != EventKind::phoneme) continue;
     current.end = std::clamp(event.sample, current.start, size);
     const std::int64_t next = current.end;
     add_segment(segments, raw, std::move(current), ipa);
-    current = {next, next, {}, word};
+    current = {next, next, {}, written.of_event[i]};
     ipa = event.ipa;
   }
   current.end = size;
@@ -144,6 +115,55 @@ void append(std::vector<dam::Phone>& phones, dam::Phone phone) {
   }
 }
 
+// Words that are announced together share their phones by their letters.
+std::vector<std::size_t> shared(std::size_t phones, const std::vector<std::string>& words) {
+  std::size_t letters = 0, before = 0;
+  for (const std::string& word : words) letters += text::code_points(word).size();
+  std::vector<std::size_t> out;
+  for (std::size_t w = 0; w < words.size(); ++w) {
+    before += text::code_points(words[w]).size();
+    const std::size_t least = out.size() + 1, most = phones - (words.size() - 1 - w);
+    const std::size_t end =
+        w + 1 == words.size() ? phones : std::clamp(before * phones / letters, least, most);
+    out.resize(end, w);
+  }
+  return out;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+  return text;
+}
+
+void name_words(const std::vector<std::size_t>& entries, const WrittenWords& written,
+                std::vector<dam::Phone>& phones) {
+  for (std::size_t i = 0; i < phones.size();) {
+    if (entries[i] >= written.words.size()) {
+      ++i;
+      continue;
+    }
+    // The phones of an entry; there may be pauses between them.
+    std::vector<std::size_t> places;
+    std::size_t end = i;
+    for (; end < phones.size(); ++end) {
+      if (entries[end] == entries[i])
+        places.push_back(end);
+      else if (entries[end] != kNoWritten)
+        break;
+    }
+    const std::vector<std::string>& words = written.words[entries[i]];
+    const bool apart = words.size() > 1 && places.size() >= words.size();
+    const auto word_of =
+        apart ? shared(places.size(), words) : std::vector<std::size_t>(places.size(), 0);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      phones[places[k]].word = apart ? words[word_of[k]] : joined(words);
+      dam::link_phone(phones, places[k], k == 0 || word_of[k] != word_of[k - 1]);
+    }
+    i = end;
+  }
+}
+
 }  // namespace
 
 text::Place place_of(const VoiceEvent& event, const text::Utterance& utterance) {
@@ -170,9 +190,11 @@ dam::Script make_voice_script(const RawSpeech& raw, int sample_rate, std::string
 
 dam::Script make_voice_script(const RawSpeech& raw, int sample_rate,
                               const text::Utterance& utterance) {
-  std::vector<VoicedSegment> segments = cut(raw, utterance);
+  const WrittenWords written = written_words(raw, utterance);
+  std::vector<VoicedSegment> segments = cut(raw, written);
   move_stops_to_closure(segments, raw, sample_rate);
   dam::Script script;
+  std::vector<std::size_t> entries;  // of WrittenWords, for each phone
   const auto seconds = [&](double sample) { return sample / double(sample_rate); };
   for (const VoicedSegment& segment : segments) {
     const double start = seconds(double(segment.start)), end = seconds(double(segment.end));
@@ -183,10 +205,14 @@ dam::Script make_voice_script(const RawSpeech& raw, int sample_rate,
     for (std::size_t i = 0; i < segment.labels.size(); ++i) {
       share += segment.labels[i].share;
       const double to = i + 1 == segment.labels.size() ? end : start + share * (end - start);
-      append(script.phones, {from, to, std::string(segment.labels[i].label), segment.word});
+      entries.resize(script.phones.size(), kNoWritten);
+      append(script.phones, {from, to, std::string(segment.labels[i].label), {}});
+      entries.resize(script.phones.size(), segment.word);
       from = to;
     }
   }
+  entries.resize(script.phones.size(), kNoWritten);
+  name_words(entries, written, script.phones);
   return script;
 }
 

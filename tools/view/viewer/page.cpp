@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <span>
 
+#include "dam/script/captions.h"
+#include "dam/script/words.h"
 #include "fap/head/shapes.h"
 #include "fap/tables.h"
 #include "tools/formats/common/json.h"
@@ -78,10 +80,28 @@ Json phone_of(const dam::Phone& phone) {
   return Json::array({phone.start, phone.end, phone.label, phone.word});
 }
 
+// Lines of words [start, end, text, whether a blank follows]: captions of one line.
+Json caption_lines(const dam::Script& script) {
+  Json lines = Json::array();
+  if (dam::words_of(script).empty()) return lines;
+  for (const dam::Caption& caption : dam::captions_of(script, {.lines = 1})) {
+    Json line = Json::array();
+    const std::vector<dam::ScriptWord>& words = caption.lines.front();
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      const bool blank =
+          i + 1 == words.size() || dam::blank_between(words[i].text, words[i + 1].text);
+      line.push_back(Json::array({words[i].start, words[i].end, words[i].text, blank}));
+    }
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
 Json facts_of(const Page& page) {
   Json facts{{"faps", json_list(fap::kFaps, fap_of)},
              {"groups", json_list(fap::kGroups, &fap::GroupInfo::name)},
-             {"phones", json_list(page.script.phones, phone_of)}};
+             {"phones", json_list(page.script.phones, phone_of)},
+             {"captions", caption_lines(page.script)}};
   if (page.sound) facts["sound"] = page.sound->type;
   if (!page.others.empty()) {
     facts["heads"] = {page.head_name};

@@ -87,6 +87,7 @@ Result<void> read_gentle(const std::vector<Node>& roots, const dam::ScriptOption
                          JsonLabels& out) {
   const Node words = roots[0].member({"words"});
   out.alphabet = dam::Alphabet::arpabet;
+  std::string before;
   for (std::size_t i = 0; i < words.size(); ++i) {
     const Node word = words.at(i);
     const auto start = word.member({"start"}).number(), end = word.member({"end"}).number();
@@ -109,9 +110,12 @@ Result<void> read_gentle(const std::vector<Node>& roots, const dam::ScriptOption
       if (!length || !label) {
         return out.error(Code::syntax, "a phone needs its duration and its name", phone);
       }
-      out.add(phone, reached, reached + *length, *label, false).word = text;
+      dam::TimedLabel& added = out.add(phone, reached, reached + *length, *label, false);
+      added.word = text;
+      if (k == 0 && text == before) added.link = dam::WordLink::again;
       reached += *length;
     }
+    before = text;
   }
   return {};
 }

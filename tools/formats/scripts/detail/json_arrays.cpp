@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "dam/script/script_text_internal.h"
+#include "dam/script/words.h"
 #include "tools/formats/scripts/detail/json_script.h"
 
 namespace animeme::scripts {
@@ -166,7 +167,7 @@ Result<std::vector<TimedLabel>> read_piece(std::string_view format, const Node& 
       if (!phone) return phone.error();
       label.label = *std::move(phone);
     }
-    attach_words(*found, words);
+    dam::attach_words(*found, words);
     return found;
   }
   return words;

@@ -1,6 +1,7 @@
 // Events of speech services, which tell when something begins: Azure Speech, Amazon Polly.
 #include <algorithm>
 
+#include "dam/script/words.h"
 #include "tools/formats/scripts/detail/json_script.h"
 
 namespace animeme::scripts {
@@ -25,7 +26,7 @@ void keep_best(std::vector<TimedLabel> visemes, std::vector<TimedLabel> words, J
     out.labels = std::move(words);
     return;
   }
-  attach_words(visemes, words);
+  dam::attach_words(visemes, words);
   out.alphabet = dam::Alphabet::arpabet;
   out.labels = std::move(visemes);
 }

@@ -102,16 +102,6 @@ Result<std::string> viseme_label(JsonLabels& out, const Node& node, dam::VisemeS
   return out.error(Code::not_found, "unknown viseme \"" + name.substr(0, 40) + "\"", node);
 }
 
-void attach_words(std::vector<dam::TimedLabel>& phones, const std::vector<dam::TimedLabel>& words) {
-  auto word = words.begin();
-  for (dam::TimedLabel& phone : phones) {
-    const double middle = 0.5 * (phone.start + phone.end);
-    while (word != words.end() && word->end <= middle) ++word;
-    if (word == words.end()) return;
-    if (word->start <= middle) phone.word = word->label;
-  }
-}
-
 bool is_spoken(char32_t code) {
   if (code < 0x80) {
     return (code >= U'0' && code <= U'9') || ((code | 0x20) >= U'a' && (code | 0x20) <= U'z');

@@ -62,9 +62,6 @@ bool is_spoken(char32_t code);
 /// well.
 void drop_unspoken(std::vector<dam::TimedLabel>& labels);
 
-/// Names the words in whose time the middle of a phone lies.
-void attach_words(std::vector<dam::TimedLabel>& phones, const std::vector<dam::TimedLabel>& words);
-
 /// The times between which the words of a segment are, seconds.
 struct Border {
   double start = -1, end = -1;  ///< negative: unknown

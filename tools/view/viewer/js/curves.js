@@ -1,7 +1,7 @@
 // Curves of the chosen FAPs over time, the wave of the sound, phones and words above them, and a
 // head that moves along.
 import {listenToDrags} from './axis.js';
-import {SILENCE, Said, wordsOf} from './captions.js';
+import {SILENCE, Said} from './captions.js';
 import {Wave} from './wave.js';
 
 const ROW = 52;
@@ -23,8 +23,8 @@ export class Curves {
   constructor(elements, app, axis, facts) {
     Object.assign(this, {...elements, app, axis});
     this.phones = facts.phones;
-    this.words = wordsOf(facts.phones);
-    this.said = new Said(this.now, facts.phones);
+    this.words = facts.captions.flat();
+    this.said = new Said(this.now, facts.phones, facts.captions);
     this.table = facts.faps;
     this.faps = [];
     this.ranges = {};

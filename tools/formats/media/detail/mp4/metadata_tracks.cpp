@@ -41,6 +41,16 @@ bool has_handler(Bytes moov, const Box& trak, std::string_view wanted) {
   return std::string_view(at, 4) == wanted;
 }
 
+// The handler's name is that of the track.
+bool is_named(Bytes moov, const Box& trak, std::string_view wanted) {
+  constexpr std::size_t kNameAt = 24;  // in the content of hdlr
+  const Box handler = box_in(moov, trak, {"mdia", "hdlr"});
+  if (handler.begin == 0 || handler.end - handler.begin < kNameAt + wanted.size()) return false;
+  const char* name = reinterpret_cast<const char*>(moov.data()) + handler.begin + kNameAt;
+  const std::string_view rest(name, handler.end - handler.begin - kNameAt);
+  return rest.substr(0, rest.find('\0')) == wanted;
+}
+
 // A descriptor of MPEG-4 Systems; its content. Empty: another tag, or broken.
 Bytes descriptor(Bytes bytes, std::uint8_t tag) {
   if (bytes.empty() || bytes[0] != tag) return {};
@@ -131,7 +141,8 @@ bool becomes_metadata(Bytes moov, const Box& trak, const TrackTypes& types) {
   const Box entry = first_entry(moov, trak);
   if (entry.begin == 0) return false;
   if (types.text == TextTrackType::metadata && entry.type == "tx3g") {
-    return has_handler(moov, trak, "sbtl") && entry.end - entry.begin >= kPlainFields;
+    return has_handler(moov, trak, "sbtl") && entry.end - entry.begin >= kPlainFields &&
+           !is_named(moov, trak, kCaptionTrack);
   }
   return types.face == FaceTrackType::metadata && entry.type == "mp4v" &&
          has_handler(moov, trak, "vide") &&

@@ -95,13 +95,39 @@ void add_empty(TextSamples& out, std::int64_t until) {
   }
 }
 
+// clean_text() of each line.
+std::string clean_lines(std::string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string line = clean_text(text.substr(0, end));
+    if (!line.empty()) out += (out.empty() ? "" : "\n") + line;
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return out;
+}
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+  }
+  return out;
+}
+
+// An arrow or an empty line would end a cue.
+std::string webvtt_cue(const TextCue& cue) {
+  const bool whole = !cue.webvtt.empty() && cue.webvtt.find("-->") == std::string::npos;
+  return whole ? clean_lines(cue.webvtt) : escaped(clean_lines(cue.text));
+}
+
 }  // namespace
 
 TextSamples mov_text_samples(const TextTrack& track) {
   TextSamples out{AV_CODEC_ID_MOV_TEXT, {1, kTextTicks},     clean_text(track.name),
                   track.language,       text_sample_entry(), {}};
   for (const TextCue& cue : track.cues) {
-    const std::string text = clean_text(cue.text);
+    const std::string text = clean_lines(cue.text);
     const std::int64_t start = ticks(cue.start, kTextTicks), end = ticks(cue.end, kTextTicks);
     if (text.empty() || end <= start) continue;
     add_empty(out, start);
@@ -122,7 +148,7 @@ TextSamples subrip_samples(const TextTrack& track) {
                   {},
                   {}};
   for (const TextCue& cue : track.cues) {
-    const std::string text = clean_text(cue.text);
+    const std::string text = clean_lines(cue.text);
     const std::int64_t start = ticks(cue.start, kMatroskaTicks);
     const std::int64_t end = ticks(cue.end, kMatroskaTicks);
     if (text.empty() || end <= start) continue;
@@ -140,13 +166,11 @@ std::string webvtt_of(const TextTrack& track) {
     return std::string(text.data());
   };
   std::string out = "WEBVTT\n";
-  for (const TextSample& cue : subrip_samples(track).samples) {  // to the millisecond, too
-    out += "\n" + clock(cue.time) + " --> " + clock(cue.time + cue.duration) + "\n";
-    for (const std::uint8_t byte : cue.bytes) {
-      const char c = char(byte);
-      out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-    }
-    out += "\n";
+  for (const TextCue& cue : track.cues) {
+    const std::string text = webvtt_cue(cue);
+    const std::int64_t start = ticks(cue.start, 1000), end = ticks(cue.end, 1000);
+    if (text.empty() || end <= start) continue;
+    out += "\n" + clock(start) + " --> " + clock(end) + "\n" + text + "\n";
   }
   return out;
 }
