@@ -50,10 +50,10 @@ enum class WordLink : std::uint8_t {
 
 /// One spoken sound. `label` is upper-case ARPAbet without stress digits ("AA", "P") or "SIL".
 struct Phone {
-  double start = 0;   ///< seconds from the start of the audio
-  double end = 0;     ///< seconds, > start
-  std::string label;  ///< ARPAbet without stress, or SIL
-  std::string word;   ///< the word it belongs to; empty: unknown or silence
+  double start = 0;                     ///< seconds from the start of the audio
+  double end = 0;                       ///< seconds, > start
+  std::string label;                    ///< ARPAbet without stress, or SIL
+  std::string word;                     ///< the word it belongs to; empty: unknown or silence
   WordLink link = WordLink::automatic;  ///< of `word` to the word before; see words_of()
 
   double duration() const { return end - start; }  ///< seconds, > 0
@@ -172,8 +172,8 @@ std::string write_srt(const Script& script);
 /// The file extensions that write_script() supports, such as ".tsv".
 std::vector<std::string> script_endings();
 
-/// Writes the format of a file extension in any case: .TextGrid, .tsv, .pho, .vtt, .srt; a TextGrid for
-/// any other.
+/// Writes the format of a file extension in any case: .TextGrid, .tsv, .pho, .vtt, .srt; a TextGrid
+/// for any other.
 std::string write_script(const Script& script, std::string_view ending);
 
 /// Checks the guarantees of read_script(), for scripts of other origin: times finite, ascending and

@@ -256,7 +256,8 @@ Result<void> score_recorded(const std::string& folder, const std::string& list,
   for (const Recorded& one : chosen) {
     auto words = voice::parted_words(one.text, rows.language);
     if (!words) return words.error();
-    texts.push_back(std::move(*words));
+    std::vector<std::string>& text = texts.emplace_back();
+    for (text::Token& word : *words) text.push_back(std::move(word.text));
   }
   Kind right, wrong, more, less;
   for (std::size_t i = 0; i < chosen.size(); ++i) {

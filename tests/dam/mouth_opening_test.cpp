@@ -70,7 +70,8 @@ double jaw_in(const Signal& signal, const Script& script, std::size_t phone) {
 
 TEST(MouthOpening, WhoWantsWhat) {
   const auto alone = [](const std::string& label) { return wish_in_middle({label}, 0); };
-  for (const char* open : {"AA", "AE", "AH", "AO", "EH"}) EXPECT_GT(alone(open).wider, 1.05) << open;
+  for (const char* open : {"AA", "AE", "AH", "AO", "EH"})
+    EXPECT_GT(alone(open).wider, 1.05) << open;
   for (const char* other : {"IY", "IH", "UW", "UH", "S", "SH", "Y"})
     EXPECT_EQ(alone(other).wider, 1) << other;
   EXPECT_GT(alone("AA").wider, alone("EH").wider);

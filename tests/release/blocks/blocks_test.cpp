@@ -237,7 +237,7 @@ TEST(Blocks, Text) {
       [](const std::string& language, const std::string& voice) -> std::optional<text::Speaker> {
         return text::make_speaker(language, voice, language);
       },
-      [](const text::Speaker&, const std::string& ipa) { return ipa; }};
+      [](const text::Speaker&, const std::string& ipa, std::vector<std::string>&) { return ipa; }};
 #include <tools_speech_text_README_md.cpp.1.inc>
   if (!utterance) GTEST_SKIP() << utterance.error().describe();
   EXPECT_GE(utterance->stretches.size(), 2u);
