@@ -1,6 +1,6 @@
-// Reading DASH descriptions with segment templates and timelines, as segment_writer.cpp and FFmpeg
-// write them.
+// Reading DASH descriptions, the small part of them that local files need.
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <optional>
 
@@ -18,10 +18,14 @@ constexpr std::int64_t kLargest = std::int64_t(1) << 53;
 
 // Of a representation: what is around it says first, what is in it has the last word.
 struct Template {
+  std::string base;  // folder of relative names, with its slash
   std::string initialization;
   std::string media;
   std::int64_t number = 1;
-  std::vector<std::int64_t> times;  // of the timeline
+  std::int64_t timescale = 1;
+  std::int64_t duration = 0;        // of each segment, where there is no timeline
+  std::vector<std::int64_t> times;  // of a timeline
+  std::vector<std::string> list;    // of a SegmentList
 };
 
 std::string text_of(const XmlElement& element, std::string_view attribute,
@@ -38,6 +42,23 @@ Result<void> take_number(const XmlElement& element, const char* attribute, std::
   const auto [at, error] = std::from_chars(text->data(), end, value);
   if (error == std::errc() && at == end && value >= -1 && value <= kLargest) return {};
   return element.error(Code::syntax, std::string(attribute) + " is not a number that can be used");
+}
+
+/// "PT1H2M3.5S" in seconds; 0: another form, which is not used for clips.
+double period_seconds(std::string_view text) {
+  if (!text.starts_with("PT")) return 0;
+  text.remove_prefix(2);
+  double total = 0;
+  while (!text.empty()) {
+    double value = 0;
+    const auto [at, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto used = std::size_t(at - text.data());
+    if (error != std::errc() || used >= text.size()) return 0;
+    const char unit = text[used];
+    total += value * (unit == 'H' ? 3600 : unit == 'M' ? 60 : unit == 'S' ? 1 : NAN);
+    text.remove_prefix(used + 1);
+  }
+  return total >= 0 && total < 1e9 ? total : 0;
 }
 
 /// Fills in $Number$, $Number%05d$, $Time$, $RepresentationID$ and $$; nullopt: another name, or
@@ -101,14 +122,43 @@ Result<void> take_timeline(const XmlElement& timeline, std::vector<std::int64_t>
   return {};
 }
 
+Result<void> take_list(const XmlElement& element, Template& out) {
+  for (const XmlElement& child : element.children) {
+    if (child.name == "Initialization" && child.attribute("range") == nullptr) {
+      out.initialization = text_of(child, "sourceURL", out.initialization);
+    } else if (child.name == "SegmentURL" && child.attribute("mediaRange") == nullptr &&
+               child.attribute("media") != nullptr) {
+      if (out.list.size() >= kMostSegments) {
+        return child.error(Code::out_of_range, "the description is too long");
+      }
+      out.list.push_back(*child.attribute("media"));
+    } else if (child.name == "Initialization" || child.name == "SegmentURL") {
+      return child.error(Code::unsupported, "byte ranges are not read");
+    }
+  }
+  return {};
+}
+
 /// What an element around a representation, or itself, adds.
 Result<void> take_level(const XmlElement& level, Template& out) {
   for (const XmlElement& child : level.children) {
-    if (child.name != "SegmentTemplate") continue;
+    if (child.name == "BaseURL") {
+      out.base += child.text.substr(0, child.text.rfind('/') + 1);
+      if (out.base.size() > kLongestName) {
+        return child.error(Code::out_of_range, "a name is too long");
+      }
+    }
+    if (child.name != "SegmentTemplate" && child.name != "SegmentList") continue;
     out.times.clear();
+    out.list.clear();
     out.initialization = text_of(child, "initialization", out.initialization);
     out.media = text_of(child, "media", out.media);
-    if (auto ok = take_number(child, "startNumber", out.number); !ok) return ok;
+    for (const auto& ok : {take_number(child, "startNumber", out.number),
+                           take_number(child, "timescale", out.timescale),
+                           take_number(child, "duration", out.duration), take_list(child, out)}) {
+      if (!ok) return ok;
+    }
+    if (out.timescale <= 0) return child.error(Code::syntax, "the time scale must be positive");
     if (const XmlElement* timeline = child.child("SegmentTimeline")) {
       if (auto ok = take_timeline(*timeline, out.times); !ok) return ok;
     }
@@ -116,26 +166,39 @@ Result<void> take_level(const XmlElement& level, Template& out) {
   return {};
 }
 
-Result<Rendition> read_representation(const XmlElement& representation, Template segments) {
+Result<Rendition> read_representation(const XmlElement& representation, Template segments,
+                                      double seconds) {
   if (auto ok = take_level(representation, segments); !ok) return ok.error();
-  if (segments.media.empty() || segments.times.empty()) {
-    return representation.error(Code::unsupported,
-                                "only segment templates with a timeline are read; give the files "
-                                "of the representation instead");
-  }
-  const std::string id = text_of(representation, "id");
-  const auto unknown = [&] {
-    return representation.error(Code::unsupported, "this segment template is not known");
+  const auto unknown = [&](const char* what) {
+    return representation.error(Code::unsupported, what);
   };
-  Rendition rendition;
-  for (const std::int64_t time : segments.times) {
-    auto name = fill_in(segments.media, segments.number++, time, id);
-    if (!name) return unknown();
-    rendition.segments.push_back(std::move(*name));
+  const std::string id = text_of(representation, "id");
+  std::vector<std::string> names = std::move(segments.list);
+  if (names.empty()) {
+    if (segments.media.empty()) {
+      return unknown("a representation is not in segments; give its file instead");
+    }
+    std::vector<std::int64_t>& times = segments.times;
+    if (times.empty() && segments.duration > 0) {
+      const double count =
+          std::ceil(seconds * double(segments.timescale) / double(segments.duration));
+      if (!(count >= 1 && count <= double(kMostSegments) &&
+            count * double(segments.duration) <= double(kLargest))) {
+        return unknown("the number of segments is not stated");
+      }
+      for (std::int64_t i = 0; i < std::int64_t(count); ++i) times.push_back(i * segments.duration);
+    }
+    for (const std::int64_t time : times) {
+      auto name = fill_in(segments.media, segments.number++, time, id);
+      if (!name) return unknown("this segment template is not known");
+      names.push_back(std::move(*name));
+    }
   }
-  auto init = fill_in(segments.initialization, 0, 0, id);
-  if (!init) return unknown();
-  rendition.init = std::move(*init);
+  const auto init = fill_in(segments.initialization, 0, 0, id);
+  if (!init) return unknown("this segment template is not known");
+  Rendition rendition;
+  if (!init->empty()) rendition.init = segments.base + *init;
+  for (const std::string& name : names) rendition.segments.push_back(segments.base + name);
   return rendition;
 }
 
@@ -150,6 +213,7 @@ Result<std::vector<Rendition>> read_dash(std::string_view text) {
   if (text_of(*mpd, "type", "static") != "static") {
     return mpd->error(Code::unsupported, "this describes a live presentation; give a finished one");
   }
+  const double seconds = period_seconds(text_of(*mpd, "mediaPresentationDuration"));
   const XmlElement* period = mpd->child("Period");
   if (period == nullptr) return nothing();
   for (const XmlElement& other : mpd->children) {
@@ -170,9 +234,9 @@ Result<std::vector<Rendition>> read_dash(std::string_view text) {
     if (auto ok = take_level(set, segments); !ok) return ok.error();
     const XmlElement* representation = set.child("Representation");
     if (representation == nullptr) continue;
-    auto rendition = read_representation(*representation, std::move(segments));
+    auto rendition = read_representation(*representation, std::move(segments), seconds);
     if (!rendition) return rendition.error();
-    out.push_back(std::move(*rendition));
+    if (!rendition->segments.empty()) out.push_back(std::move(*rendition));
   }
   if (out.empty()) return nothing();
   return out;
