@@ -72,12 +72,12 @@ class CarriedWords : public testing::TestWithParam<const char*> {
 
 TEST_P(CarriedWords, AreTracksBesideTheirCaptionsUnlessUnwanted) {
   const std::string german = ending_ == ".mkv" ? "ger" : "deu";
-  json want = {{"words", german}, {"phones", "zxx"}};
+  json want = json::array({json::array({"words", german}), json::array({"phones", "zxx"})});
   if (ending_ != ".mp4") want.insert(want.begin(), json::array({"captions", german}));
   EXPECT_EQ(tracks(talk_), want);
   EXPECT_EQ(tracks(bare_), json::array());
   const std::string shown = dir_ / ("shown" + ending_);
-  succeeds({"mux", talk_, talk_, "--subtitles", "-o", shown});
+  succeeds({"speak", "--script", dir_ / "talk.tsv", "--subtitles", "-o", shown});
   EXPECT_EQ(tracks(shown)[0][0], "captions");
   EXPECT_EQ(tracks(shown).size(), 3u);
 }

@@ -78,20 +78,20 @@ TEST(Outputs, EndingsFitWhatIsWritten) {
   refused({"view", in, "-o", dir / "a.mp4"}, "must end in .html");
   refused({"train", ".", "-o", dir / "a.fap"}, "must end in .dam");
   refused({"align", "--audio", in, "--transcript", "x", "-o", dir / "a.txt"},
-          ".TextGrid, .tsv, .pho or .vtt");
+          ".TextGrid, .tsv, .pho, .vtt or .srt");
   refused({"speak", "--text", "hi", "-o", dir / "a.fap", "--save-script", dir / "a.lab"},
-          "must end in .TextGrid, .tsv, .pho or .vtt");
+          "must end in .TextGrid, .tsv, .pho, .vtt or .srt");
   refused({"speak", "--text", "hi", "-o", dir / "a"}, "must end in .mp4");
   // What tells nobody what to write, where the ending would.
   refused({"speak", "--text", "hi", "-o", "-"}, "must end in .mp4");
   refused({"speak", "--text", "hi", "-o", dir / "a.fap", "--save-script", "-"},
-          ".TextGrid, .tsv, .pho or .vtt");
+          ".TextGrid, .tsv, .pho, .vtt or .srt");
   refused({"evaluate", "x", "y", "--picture", "-"}, "must end in .svg or .png");
   refused({"head", "woman", "-o", "-"}, ".fdp, .xmt, .glb or .obj");
   refused({"render", in, "--frame", "0", "-o", dir / "a"}, "must end in .png");
   refused({"plot", in, "-o", dir / "a"}, "must end in .svg or .png");
   refused({"align", "--audio", in, "--transcript", "x", "-o", dir / "a"},
-          ".TextGrid, .tsv, .pho or .vtt");
+          ".TextGrid, .tsv, .pho, .vtt or .srt");
   refused({"receive", "udp://127.0.0.1:9", "-o", dir / "a"}, "must end in .fap");
   refused({"check", dir.path().string(), "--json", dir / "a.mp4"}, "must end in .json");
   refused({"check", dir.path().string(), "--junit", dir / "a.json"}, "must end in .xml");

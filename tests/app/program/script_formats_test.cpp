@@ -19,14 +19,14 @@ std::string script(const std::string& name) {
 
 TEST(ScriptFormats, AreSpokenAndWrittenByTheirEnding) {
   const TempDir dir;
-  for (const char* ending : {".TextGrid", ".tsv", ".pho", ".vtt"}) {
+  for (const char* ending : {".TextGrid", ".tsv", ".pho", ".vtt", ".srt"}) {
     test::succeeds({"speak", "--script", script("gentle.json"), "-o", dir / "a.fap",
                     "--save-script", dir / "a" + ending});
   }
   EXPECT_THAT(test::slurp(dir / "a.TextGrid"), HasSubstr("IntervalTier"));
   EXPECT_THAT(test::slurp(dir / "a.tsv"), HasSubstr("0.25\t0.3\tB\tbin\n"));
   EXPECT_THAT(test::slurp(dir / "a.pho"), HasSubstr("\nB 50\n"));
-  EXPECT_THAT(test::slurp(dir / "a.vtt"), HasSubstr("00:00:00.250 --> 00:00:00.500\n"));
+  EXPECT_THAT(test::slurp(dir / "a.vtt"), HasSubstr("\n<00:00:00.250>bin<00:00:00.500> "));
   const auto again = dam::read_script(test::slurp(dir / "a.pho"));
   ASSERT_TRUE(again);
   EXPECT_EQ(again->phones.size(), 8u);

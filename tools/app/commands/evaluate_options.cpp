@@ -41,11 +41,14 @@ void add_speakers(OptionTable& cli, EvaluateOptions& options) {
           "Compare training for strangers: warp this corpus of one speaker into others, and score "
           "a few own sentences alone, the model as it is, and the model adapted to them; the "
           "model is also scored on each sentence of CORPUS")
-      ->value("DIR")
+      ->value("FILE")
       ->excludes("--tracks --folds --against --codec --report --picture");
   cli.add("--sentences", options.sizes, "With --speakers: own sentences to train on")
       ->at_commas()
       ->value("N,N=5,10,20")
+      ->check([](const std::string& text) {
+        return problem_of_number(text, 1, 100000, "numbers of sentences, such as 5,10,20");
+      })
       ->needs("--speakers");
   cli.add("--copies", options.copies, "With --speakers: number of warped speakers")
       ->between(1, 64)

@@ -39,7 +39,7 @@ lang: language of words without phones.
 
 Raises Error with position.file and line.)");
   module.def("write_script", &write_script, py::arg("phones"), py::arg("path"),
-             R"(Writes a script in the format of the extension: .TextGrid, .tsv, .pho or .vtt.
+             R"(Writes a script in the format of the extension: .TextGrid, .tsv, .pho, .vtt or .srt.
 
 phones: tuples (start, end, label[, word]): seconds, ARPAbet without stress or "SIL".
 path: str or os.PathLike.

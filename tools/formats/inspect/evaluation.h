@@ -53,7 +53,8 @@ struct RuleCost {
   double nrmse = 0;            ///< Evaluation::nrmse
   double fitted_nrmse = 0;     ///< Evaluation::fitted_nrmse, for speakers of another size
   double gap_correlation = 0;  ///< Evaluation::gap_correlation
-  double gap = 0, jaw = 0;     ///< NRMSE of the inner gap and of FAP 3; 0 if they are not there
+  double gap = 0;              ///< NRMSE of the inner gap; 0 if it is not there
+  double jaw = 0;              ///< NRMSE of FAP 3; 0 if it is not there
 };
 /// Speaks the recordings without rules and with each of them. Errors: those of dam::evaluate().
 Result<std::vector<RuleCost>> rule_costs(const dam::Model& model,

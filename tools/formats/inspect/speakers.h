@@ -60,7 +60,9 @@ struct SpeakerScore {
 
 /// A mean over speakers and the interval that holds 95 % of bootstrap draws.
 struct MeanInterval {
-  double mean = 0, low = 0, high = 0;
+  double mean = 0;  ///< over the speakers
+  double low = 0;   ///< lower end of the interval
+  double high = 0;  ///< upper end
 };
 
 /// One system trained on so many own sentences.
@@ -69,8 +71,10 @@ struct SpeakersRow {
   std::size_t sentences = 0;                            ///< of the speaker that it was trained on
   std::vector<SpeakerScore> scores;                     ///< one for each speaker
   std::array<MeanInterval, SpeakerScore::kCount> mean;  ///< of each measure
-  /// "adapted": its measure minus that of "own" and of "base", speaker by speaker.
-  std::array<MeanInterval, SpeakerScore::kCount> over_own, over_base;
+  /// "adapted": its measure minus that of "own", speaker by speaker.
+  std::array<MeanInterval, SpeakerScore::kCount> over_own;
+  /// "adapted": its measure minus that of "base", speaker by speaker.
+  std::array<MeanInterval, SpeakerScore::kCount> over_base;
 };
 
 /// Result of compare_speakers().

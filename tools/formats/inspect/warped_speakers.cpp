@@ -245,7 +245,7 @@ Motion target_of(const SpeakerHabits& habits, const Phone& phone, std::string_vi
 class Extra {
  public:
   Extra(const SpeakerHabits& habits, const std::string& id, const dam::Script& script)
-      : habits_(habits), script_(script) {
+      : script_(script) {
     for (std::size_t p = 0; p < script.phones.size(); ++p) {
       targets_.push_back(target_of(
           habits, script.phones[p],
@@ -288,7 +288,6 @@ class Extra {
   }
 
  private:
-  const SpeakerHabits& habits_;
   const dam::Script& script_;
   std::vector<Motion> targets_, knots_;
   Motion posture_{};

@@ -25,7 +25,7 @@ class Members {
   template <class Number>
   void number(const char* name, double low, double high, Number& value) {
     const Json* found = find(name);
-    if (found == nullptr) return;
+    if (found == nullptr || found->is_null()) return;
     const bool whole = !std::is_integral_v<Number> || found->is_number_integer();
     const double read = found->is_number() && whole ? found->get<double>() : NAN;
     if (!(read >= low && read <= high)) {

@@ -185,8 +185,8 @@ TEST_F(Streams, AControlSocketHasLinesCommandsAndEvents) {
   one.say("{\"do\":\"say\",\"id\":\"größe\",\"text\":\"Good morning, how are you?\"}");
   one.say("A line that waits.");
   one.say("{\"do\":\"nothing\"}");
-  ASSERT_TRUE(one.hears("\"word\":\"morning\""));
-  ASSERT_TRUE(two.hears("\"word\":\"morning\""));
+  ASSERT_TRUE(one.hears("\"word\":\"morning,\""));
+  ASSERT_TRUE(two.hears("\"word\":\"morning,\""));
   two.say("{\"do\":\"stop\"}");
   ASSERT_TRUE(one.hears("\"event\":\"cancelled\""));
   EXPECT_THAT(one.heard(), HasSubstr("\"event\":\"error\""));

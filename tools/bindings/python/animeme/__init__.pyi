@@ -249,7 +249,7 @@ class Model:
         rate: _Rate = 25,
         style: float = 1.0,
         sharpness: float = 1.0,
-        articulation: float | None = None,
+        articulation: Optional[float] = None,
         closure: bool = True,
         idle_motion: Optional[bool] = None,
         seed: int = 1,
@@ -297,7 +297,7 @@ class SpeechStream:
         look_ahead: Optional[float] = None,
         style: float = 1.0,
         sharpness: float = 1.0,
-        articulation: float | None = None,
+        articulation: Optional[float] = None,
         closure: bool = True,
     ) -> None: ...
     def push(self, start: float, end: float, label: str, word: str = "") -> NDArray[np.float64]: ...
@@ -314,7 +314,7 @@ class VoiceStream:
         delay: float = 0.25,
         style: float = 1.0,
         sharpness: float = 1.0,
-        articulation: float | None = None,
+        articulation: Optional[float] = None,
         closure: bool = True,
     ) -> None: ...
     def push(self, samples: ArrayLike) -> NDArray[np.float64]: ...
