@@ -25,7 +25,7 @@ class Members {
   template <class Number>
   void number(const char* name, double low, double high, Number& value) {
     const Json* found = find(name);
-    if (found == nullptr || found->is_null()) return;
+    if (found == nullptr) return;
     const bool whole = !std::is_integral_v<Number> || found->is_number_integer();
     const double read = found->is_number() && whole ? found->get<double>() : NAN;
     if (!(read >= low && read <= high)) {
@@ -34,6 +34,11 @@ class Members {
                                  high));
     }
     value = Number(read);
+  }
+  /// As settings_json() writes what is not set.
+  bool is_null(const char* name) {
+    const Json* found = find(name);
+    return found != nullptr && found->is_null();
   }
   void flag(const char* name, bool& value) {
     const Json* found = find(name);
@@ -114,7 +119,8 @@ Result<HeadSettings> read_settings(const Json& json, HeadSettings settings) {
   members.number("style", 0, dam::kMostStyle, settings.motion.style);
   members.number("sharpness", 0, dam::kMostSharpness, settings.motion.sharpness);
   double articulation = -1;  // that of the model
-  members.number("articulate", 0, dam::kMostArticulation, articulation);
+  if (!members.is_null("articulate"))
+    members.number("articulate", 0, dam::kMostArticulation, articulation);
   if (articulation >= 0) settings.motion.articulation = articulation;
   members.flag("idle_motion", settings.idle_motion);
   members.number("seed", 0, 1e9, settings.seed);

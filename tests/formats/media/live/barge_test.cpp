@@ -191,7 +191,7 @@ TEST_F(Streams, AControlSocketHasLinesCommandsAndEvents) {
   ASSERT_TRUE(one.hears("\"event\":\"cancelled\""));
   EXPECT_THAT(one.heard(), HasSubstr("\"event\":\"error\""));
   EXPECT_THAT(two.heard(), testing::Not(HasSubstr("\"event\":\"error\"")));
-  EXPECT_TRUE(one.hears("\"id\":\"größe\",\"said\":\"Good morning\""));
+  EXPECT_TRUE(one.hears("\"id\":\"größe\",\"said\":\"Good morning,\""));
   // Another program that wants the same place is refused, and takes nothing away.
   const auto second = animeme({"stream", "--control", path, "--to", "udp://127.0.0.1:9"});
   EXPECT_NE(second.exit_code, 0);
