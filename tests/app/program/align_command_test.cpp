@@ -56,6 +56,18 @@ TEST(AlignCommand, TellsWhatIsNotSaidAndWhatIsSaidMore) {
   }
 }
 
+TEST(AlignCommand, MarksOfSoundsAreNoWords) {
+  const TempDir dir;
+  if (const auto why = no_aligner(dir); !why.empty()) GTEST_SKIP() << why;
+  const auto plain = align(dir, kText);
+  const auto marked = align(dir, "[noise] " + std::string(kText) + " (laughs)");
+  ASSERT_EQ(marked.exit_code, 0) << marked.err;
+  EXPECT_THAT(marked.err, HasSubstr("\"[noise]\" is not said (--speak-marks says such marks) (2"));
+  EXPECT_EQ(json::parse(marked.out)["words"], json::parse(plain.out)["words"]);
+  const auto said = align(dir, "[noise] " + std::string(kText), {"--speak-marks"});
+  EXPECT_EQ(json::parse(said.out)["words"][0]["word"], "noise");
+}
+
 TEST(AlignCommand, MinConfidenceRefusesByName) {
   const TempDir dir;
   if (const auto why = no_aligner(dir); !why.empty()) GTEST_SKIP() << why;

@@ -81,7 +81,8 @@ void print_json(const voice::Alignment& alignment, bool heard) {
 
 // Of the text that there is.
 Result<voice::Alignment> align_to_text(const AlignOptions& options) {
-  std::string transcript = options.transcript;
+  std::string transcript =
+      speech::without_marks(options.transcript, options.reading.speak_marks, terminal_log());
   if (!options.script.empty()) {
     auto words = speech::words_of_file(options.script, options.reading);
     if (!words) return words.error();

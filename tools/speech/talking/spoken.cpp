@@ -15,20 +15,10 @@ namespace animeme::speech {
 
 namespace {
 
-// A text without the marks of what is no word in it, "(laughs)", unless they are to be said.
-std::string said_of(const std::string& text, const SpokenOptions& options, const tools::Log& log) {
-  if (options.script_reading.speak_marks || text::is_ssml(text)) return text;
-  dam::Unmarked unmarked = dam::without_marks(text, dam::MarksOf::prose);
-  if (unmarked.count == 0) return text;
-  log.warn("the mark \"" + unmarked.mark + "\" is not said (--speak-marks says such marks)" +
-           (unmarked.count > 1 ? " (" + std::to_string(unmarked.count) + " in all)" : ""));
-  return std::move(unmarked.text);
-}
-
 Result<Spoken> speak(const SpokenOptions& options, const std::string& written,
                      const tools::Log& log) {
   tools::AtStep step(tools::Step::voice);
-  const std::string text = said_of(written, options, log);
+  const std::string text = without_marks(written, options.script_reading.speak_marks, log);
   if (!options.tts.empty()) {
     Result<TimedSpeech> timed = run_voice_command(text, voice_command(options), log);
     if (!timed) return timed.error();
@@ -74,8 +64,9 @@ Result<Spoken> follow_script(const SpokenOptions& options, const tools::Log& log
 Result<Spoken> align_voice(const SpokenOptions& options, const tools::Log& log) {
   voice::AlignOptions settings;
   settings.language = options.language;
-  Result<voice::Alignment> aligned =
-      align_file(options.audio, said_of(options.transcript, options, log), settings, log);
+  Result<voice::Alignment> aligned = align_file(
+      options.audio, without_marks(options.transcript, options.script_reading.speak_marks, log),
+      settings, log);
   if (!aligned) return aligned.error();
   Result<media::Pcm> audio = read_voice(options.audio, log);
   if (!audio) return audio.error();
@@ -97,6 +88,15 @@ Result<Spoken> hear_voice(const SpokenOptions& options, const tools::Log& log) {
 }
 
 }  // namespace
+
+std::string without_marks(const std::string& text, bool speak_marks, const tools::Log& log) {
+  if (speak_marks || text::is_ssml(text)) return text;
+  dam::Unmarked unmarked = dam::without_marks(text, dam::MarksOf::prose);
+  if (unmarked.count == 0) return text;
+  log.warn("the mark \"" + unmarked.mark + "\" is not said (--speak-marks says such marks)" +
+           (unmarked.count > 1 ? " (" + std::to_string(unmarked.count) + " in all)" : ""));
+  return std::move(unmarked.text);
+}
 
 VoiceCommand voice_command(const SpokenOptions& options) {
   return {options.tts, {options.script_reading, options.language, options.most_seconds}};
