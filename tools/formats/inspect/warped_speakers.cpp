@@ -139,6 +139,7 @@ struct Paced {
 
   double source_of(double time) const {
     const auto at = std::upper_bound(now.begin(), now.end(), time);
+    if (at == now.begin()) return before.front() + time - now.front();
     if (at == now.end()) return before.back() + time - now.back();
     const auto i = std::size_t(at - now.begin());
     const double share = (time - now[i - 1]) / std::max(1e-9, now[i] - now[i - 1]);
