@@ -119,7 +119,7 @@ TEST(EvaluateSpeakers, TextAndErrors) {
   EXPECT_THAT(few.err, HasSubstr("at least 204 sentences, these are 24"));
   const auto wrong = animeme({"evaluate", "builtin", "--speakers", corpus(), "--sentences", "4,x"});
   EXPECT_EQ(wrong.exit_code, 2);
-  EXPECT_THAT(wrong.err, HasSubstr("not 'x'"));
+  EXPECT_THAT(wrong.err, HasSubstr("'x' is not a number of sentences"));
   EXPECT_EQ(animeme({"evaluate", "builtin", corpus(), "--sentences", "4"}).exit_code, 2);
 }
 

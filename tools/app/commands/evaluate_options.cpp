@@ -47,7 +47,7 @@ void add_speakers(OptionTable& cli, EvaluateOptions& options) {
       ->at_commas()
       ->value("N,N=5,10,20")
       ->check([](const std::string& text) {
-        return problem_of_number(text, 1, 100000, "numbers of sentences, such as 5,10,20");
+        return problem_of_number(text, 1, 100000, "a number of sentences, as in 5,10,20");
       })
       ->needs("--speakers");
   cli.add("--copies", options.copies, "With --speakers: number of warped speakers")
