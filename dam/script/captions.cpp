@@ -14,10 +14,10 @@ namespace {
 // second line, which is worse than a caption more; what is too short or too long is worst.
 constexpr double kCaption = 2, kSecondLine = 5, kLineInClause = 2;
 constexpr double kEndOfClause = 2, kEndAtPause = 4, kEndInClause = 8;
-constexpr double kSentenceInside = 2, kPauseInside = 6, kTooShort = 30;
+constexpr double kSentenceInside = 2, kPauseInside = 20, kTooShort = 30;
 
 constexpr double kPause = 0.15;     // seconds between sentences, even when speech is fast
-constexpr double kLongPause = 1.5;  // seconds: what follows is not expected yet
+constexpr double kLongPause = 1;    // seconds: what follows is not expected yet
 
 // How well words can be parted.
 enum class Cut : std::uint8_t { clause, pause, inside, sentence };
