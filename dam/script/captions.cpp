@@ -16,8 +16,8 @@ constexpr double kCaption = 2, kSecondLine = 5, kLineInClause = 2;
 constexpr double kEndOfClause = 2, kEndAtPause = 4, kEndInClause = 8;
 constexpr double kSentenceInside = 2, kPauseInside = 20, kTooShort = 30;
 
-constexpr double kPause = 0.15;     // seconds between sentences, even when speech is fast
-constexpr double kLongPause = 1;    // seconds: what follows is not expected yet
+constexpr double kPause = 0.15;   // seconds between sentences, even when speech is fast
+constexpr double kLongPause = 1;  // seconds: what follows is not expected yet
 
 // How well words can be parted.
 enum class Cut : std::uint8_t { clause, pause, inside, sentence };
