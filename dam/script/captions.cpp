@@ -81,13 +81,17 @@ Cut cut_after(std::string_view text, double pause) {
   return dash ? Cut::clause : pause >= 2 * kPause ? Cut::pause : Cut::inside;
 }
 
-std::vector<Measured> measured(const Script& script) {
-  std::vector<ScriptWord> words = words_of(script);
-  const bool unknown = words.empty();
-  for (std::size_t i = 0; unknown && i < script.phones.size(); ++i) {
+// The phones, where no word is known.
+std::vector<ScriptWord> phones_as_words(const Script& script) {
+  std::vector<ScriptWord> words;
+  for (std::size_t i = 0; i < script.phones.size(); ++i) {
     const Phone& phone = script.phones[i];
     if (phone.label != kSilence) words.push_back({phone.start, phone.end, phone.label, i, i + 1});
   }
+  return words;
+}
+
+std::vector<Measured> measured(const std::vector<ScriptWord>& words) {
   std::vector<Measured> out;
   for (std::size_t i = 0; i < words.size(); ++i) {
     Measured one;
@@ -236,8 +240,14 @@ bool blank_between(std::string_view before, std::string_view after) {
   return !is_unspaced(take_code_point(last)) || !is_unspaced(take_code_point(after));
 }
 
+std::vector<Caption> captions_of(const std::vector<ScriptWord>& words, double end,
+                                 const CaptionLimits& limits) {
+  return Cutter(measured(words), end, limits).cut();
+}
+
 std::vector<Caption> captions_of(const Script& script, const CaptionLimits& limits) {
-  return Cutter(measured(script), script.duration(), limits).cut();
+  const std::vector<ScriptWord> words = words_of(script);
+  return captions_of(words.empty() ? phones_as_words(script) : words, script.duration(), limits);
 }
 
 std::string caption_line(const std::vector<ScriptWord>& line) {

@@ -37,6 +37,11 @@ struct Caption {
 /// labels of the phones are shown. Deterministic; time is linear in the number of words.
 std::vector<Caption> captions_of(const Script& script, const CaptionLimits& limits = {});
 
+/// The same of words that are known without phones, ascending; `end`: seconds, how long the last
+/// caption may be seen.
+std::vector<Caption> captions_of(const std::vector<ScriptWord>& words, double end,
+                                 const CaptionLimits& limits = {});
+
 /// The words of a line with blanks between them (none between Chinese, Japanese or Thai words).
 std::string caption_line(const std::vector<ScriptWord>& line);
 

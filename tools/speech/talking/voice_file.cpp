@@ -106,13 +106,10 @@ void add_captions(std::vector<media::TextTrack>& tracks) {
     return dam::lower_case(track.name) == "words" && !track.cues.empty();
   });
   if (words == tracks.end()) return;
-  dam::Script script;
-  for (const media::TextCue& cue : words->cues) {
-    // Captions only look at words and their times.
-    script.phones.push_back({cue.start, cue.end, "AX", cue.text, dam::WordLink::again});
-  }
+  std::vector<dam::ScriptWord> spoken;
+  for (const media::TextCue& cue : words->cues) spoken.push_back({cue.start, cue.end, cue.text});
   media::TextTrack captions{std::string(media::kCaptionTrack), words->language, {}};
-  for (const dam::Caption& caption : dam::captions_of(script)) {
+  for (const dam::Caption& caption : dam::captions_of(spoken, spoken.back().end)) {
     captions.cues.push_back(
         {caption.start, caption.end, dam::caption_text(caption), dam::caption_webvtt(caption)});
   }
