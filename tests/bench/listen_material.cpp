@@ -74,6 +74,24 @@ Result<Voices> read_corpus_voices(const std::string& folder, const Choice& choic
   return voices;
 }
 
+Result<Voices> read_strangers(const std::string& folder, const Choice& choice) {
+  const auto corpus = dam::read_corpus(folder, {});
+  if (!corpus) return corpus.error();
+  auto model = dam::builtin_model();
+  if (!model) return model.error();
+  Voices voices{std::move(*model), {}};
+  std::size_t number = 0;
+  for (const dam::Utterance& one : corpus->utterances) {
+    const fs::path wav = fs::path(folder) / "audio" / (one.id + ".wav");
+    if (!fs::exists(wav) || number++ % choice.every != choice.from) continue;
+    auto sound = sound_of(wav);
+    if (!sound) return sound.error();
+    voices.rows.push_back({one, std::move(*sound)});
+  }
+  if (voices.rows.empty()) return make_error(Code::not_found, "no recording in " + folder);
+  return voices;
+}
+
 Result<Voices> read_recordings(const std::string& folder, const std::string& list,
                                const Choice& choice) {
   auto model = dam::builtin_model();

@@ -33,6 +33,9 @@ struct Choice {
 // those without sound else.
 Result<Voices> read_corpus_voices(const std::string& folder, const Choice& choice);
 
+// All rows of a corpus that have sound. The built-in model speaks, which has heard none of them.
+Result<Voices> read_strangers(const std::string& folder, const Choice& choice);
+
 // Recordings FOLDER/ID.g722 or .wav and a list of lines "ID: text" (Asterisk's), lines of less than
 // 60 bytes left out, and those that do not align. The built-in model speaks.
 Result<Voices> read_recordings(const std::string& folder, const std::string& list,

@@ -22,8 +22,8 @@ Result<std::vector<double>> read_phone_pairs(const std::string& path,
   return (*sphinx())->read_phone_pairs(path, phones);
 }
 
-std::vector<float> denoised(const std::vector<float>& samples) {
-  return sphinx() ? (*sphinx())->denoised(samples) : samples;
+std::vector<float> denoised(const std::vector<float>& samples, double snr) {
+  return sphinx() ? (*sphinx())->denoised(samples, snr) : samples;
 }
 
 Result<std::unique_ptr<RateChange>> RateChange::open(int rate) {

@@ -32,7 +32,8 @@ struct ReadAudioOptions {
 };
 
 /// Reads the best audio track of any file that FFmpeg supports, or of a playlist (see container.h),
-/// and mixes it down to one channel. Sample 0 is the first sample that a player would play: encoder
+/// and mixes it down to one channel (of two opposite ones, whose mean is silence, the left one is
+/// taken). Sample 0 is the first sample that a player would play: encoder
 /// delay is skipped if the file states it (mp4, mkv, ogg, mp3; raw ADTS .aac does not and gives
 /// 1024 samples too many). Padding at the end of an mp4 or m4a is cut at the duration that the file
 /// states. Gaps between the timestamps become silence. A damaged packet is skipped with a warning.

@@ -7,10 +7,10 @@
 #include "dam/script/timings.h"
 #include "dam/script/words.h"
 #include "tools/speech/voice/confidence.h"
-#include "tools/speech/voice/denoise.h"
 #include "tools/speech/voice/parted_words.h"
 #include "tools/speech/voice/pronunciation.h"
 #include "tools/speech/voice/recogniser.h"
+#include "tools/speech/voice/speech_part.h"
 
 namespace animeme::voice {
 
@@ -199,6 +199,7 @@ Stretch loud_part(const std::vector<float>& samples) {
     for (std::size_t i = at; i < at + kBlock; ++i) sum += double(samples[i]) * samples[i];
     levels.push_back(std::sqrt(sum));
   }
+  if (levels.empty()) return {0, double(samples.size()) / kAlignRate};
   const double threshold = 0.05 * *std::max_element(levels.begin(), levels.end());
   const auto loud = [&](double level) { return level >= threshold; };
   const auto first = std::find_if(levels.begin(), levels.end(), loud);
@@ -207,8 +208,7 @@ Stretch loud_part(const std::vector<float>& samples) {
   return {double(first - levels.begin()) * seconds, double(levels.rend() - last) * seconds};
 }
 
-std::vector<Segment> spread_evenly(const std::vector<float>& samples,
-                                   const std::vector<SpokenWord>& words) {
+std::vector<Segment> spread_evenly(const SpeechPart& part, const std::vector<SpokenWord>& words) {
   double total = 0;
   for (const SpokenWord& word : words) {
     if (word.variants.empty()) continue;
@@ -216,7 +216,10 @@ std::vector<Segment> spread_evenly(const std::vector<float>& samples,
       if (label != dam::kSilence) total += dam::usual_duration(label);
     }
   }
-  const Stretch loud = loud_part(samples);
+  Stretch loud = loud_part(part.samples);
+  const double first = double(part.first) / kAlignRate;
+  loud.start += first;
+  loud.end += first;
   std::vector<Segment> segments;
   if (loud.start > 0) segments.push_back({0, std::string(dam::kSilence), kNoWord, 0, 1});
   double done = 0;
@@ -298,8 +301,8 @@ Result<Alignment> align(const media::Pcm& audio, std::string_view transcript,
                                               std::to_string(least_phones(*words)) +
                                               " phones; does the text belong to this recording?");
   }
-  const auto samples = denoised(audio.samples);
-  auto recognised = recognise(samples, *words, options);
+  const SpeechPart part = find_speech(audio.samples);
+  auto recognised = recognise(part, *words, options);
   if (!recognised) return recognised.error();
   auto& segments = recognised->segments;
   const bool any = std::any_of(segments.begin(), segments.end(), [](const Segment& segment) {
@@ -315,7 +318,7 @@ Result<Alignment> align(const media::Pcm& audio, std::string_view transcript,
     result.warnings.push_back(
         "the recogniser cannot fit the transcript to the recording, so the phones are spread over "
         "its loud part; check that the text is what is said");
-    segments = spread_evenly(samples, *words);
+    segments = spread_evenly(part, *words);
   } else {
     result.confidence = rate_recording(*recognised, *words, is_english(options.language));
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/speech/voice/denoise.h"
 #include "tools/speech/voice/hearing.h"
 
 namespace animeme::voice {
@@ -13,7 +14,8 @@ constexpr std::size_t kMeanReach = 1500;  // frames to either side that the mean
 constexpr std::size_t kFrameHop = 160, kHalfWindow = 205;  // samples
 constexpr std::size_t kLevelReach = 800;                   // samples to either side
 constexpr double kFloor = 0.1;
-constexpr double kLoud = 0.9;      // of the frames are less loud
+constexpr float kAboveLowest = 6;  // dB, where there are no pauses
+constexpr double kLoud = 0.87;     // of the frames with speech are less loud
 constexpr float kNewPhone = 4.6f;  // a phone of the free path costs so much
 
 // dB over 0.1 s around the middle of each frame.
@@ -29,6 +31,13 @@ std::vector<float> smooth_levels(const std::vector<std::int16_t>& samples, std::
     levels.push_back(float(10 * std::log10(mean + 1)));
   }
   return levels;
+}
+
+// What a share of the levels lies below.
+float exceeded(std::vector<float>& levels, double share) {
+  const auto at = levels.begin() + std::ptrdiff_t(share * double(levels.size() - 1));
+  std::nth_element(levels.begin(), at, levels.end());
+  return *at;
 }
 
 // The best path of any phones, taken off the scores.
@@ -75,12 +84,13 @@ void take_free_path(const SoundModel& model, FrameScores& scores) {
 
 }  // namespace
 
-MeasuredSound measure_sound(CepstraReader& reader, const std::vector<float>& samples) {
+MeasuredSound measure_sound(CepstraReader& reader, const SpeechPart& part) {
   MeasuredSound sound;
-  if (samples.empty()) return sound;
+  if (part.samples.empty()) return sound;
   std::vector<std::int16_t> whole;
-  Trace trace{loudness_of(samples), 0};
-  to_whole(samples, trace, whole);
+  Trace trace{part.loud, 0};
+  to_whole(denoised(part.samples, part.snr), trace, whole);
+  sound.speech = part.speech;
   reader.push(whole, sound.cepstra);
   reader.finish(sound.cepstra);
   sound.levels = smooth_levels(whole, sound.cepstra.size());
@@ -95,12 +105,17 @@ FrameScores score_frames(const SoundModel& model, const MeasuredSound& sound, st
   count = std::min(count, cepstra.size() - first);
   const std::size_t begin = first > kMeanReach ? first - kMeanReach : 0;
   const std::size_t end = std::min(first + count + kMeanReach, cepstra.size());
-  const Cepstrum mean = mean_of_loud(std::span(cepstra).subspan(begin, end - begin));
-  std::vector<float> around(sound.levels.begin() + std::ptrdiff_t(begin),
-                            sound.levels.begin() + std::ptrdiff_t(end));
-  std::sort(around.begin(), around.end());
-  const float quiet = around[std::size_t(kFloor * double(around.size() - 1))];
-  scores.range = around[std::size_t(kLoud * double(around.size() - 1))] - quiet;
+  const Cepstrum mean =
+      mean_of_speech(std::span(cepstra).subspan(begin, end - begin),
+                     std::span(sound.speech).subspan(std::min(begin, sound.speech.size())));
+  std::vector<float> around, voices;
+  for (std::size_t t = begin; t < end; ++t) {
+    around.push_back(sound.levels[t]);
+    if (is_speech(sound.speech, t)) voices.push_back(sound.levels[t]);
+  }
+  const float lowest = *std::min_element(around.begin(), around.end());
+  const float quiet = std::min(exceeded(around, kFloor), lowest + kAboveLowest);
+  scores.range = exceeded(voices.empty() ? around : voices, kLoud) - quiet;
   scores.states = model.states();
   scores.values.resize(count * scores.states);
   for (std::size_t t = 0; t < count; ++t) {

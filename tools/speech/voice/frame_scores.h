@@ -12,13 +12,15 @@
 #include "fap/result.h"
 #include "tools/speech/voice/cepstra.h"
 #include "tools/speech/voice/sound_model.h"
+#include "tools/speech/voice/speech_part.h"
 
 namespace animeme::voice {
 
 /// What is measured of a recording.
 struct MeasuredSound {
-  std::vector<Cepstrum> cepstra;  ///< of each frame
-  std::vector<float> levels;      ///< of the same frames, dB, over 0.1 s
+  std::vector<Cepstrum> cepstra;     ///< of each frame
+  std::vector<float> levels;         ///< of the same frames, dB, over 0.1 s
+  std::vector<std::uint8_t> speech;  ///< SpeechPart::speech
 };
 
 /// Log likelihoods of frames of 10 ms, less those of the free path: 0 is as good as the best phone.
@@ -37,8 +39,8 @@ struct FrameScores {
   }
 };
 
-/// Measures a whole recording, 16 kHz; a trace of noise is laid under digital silence.
-MeasuredSound measure_sound(CepstraReader& reader, const std::vector<float>& samples);
+/// Measures speech; its noise is reduced, and a trace of noise is laid under digital silence.
+MeasuredSound measure_sound(CepstraReader& reader, const SpeechPart& part);
 
 /// Scores of frames `first` to `first` + `count`; what is quiet and loud is judged by their
 /// surroundings. Past the end there are none.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 namespace animeme::voice {
 
@@ -20,8 +21,31 @@ constexpr std::size_t kShortest = 3;  // frames
 // tell.
 constexpr float kTraceOfLoud = 0.002f, kLeastTrace = 0.00025f;
 
-constexpr double kQuietShare = 0.3;
-constexpr std::size_t kPeakBlock = 160;  // samples
+constexpr double kLoudShare = 0.7;  // of frames that are all alike
+// The model has learned with a mean that some of the pauses are in.
+constexpr double kSpeechAndEdges = 1.1, kMostOfAll = 0.92;
+constexpr std::size_t kFewOfSpeech = 30;  // with speech: too few for a mean
+
+// What `count` of the levels reach.
+float level_of_loudest(std::vector<float>& levels, double count) {
+  const std::size_t last = std::min(std::size_t(count), levels.size() - 1);
+  const auto at = levels.begin() + std::ptrdiff_t(last);
+  std::nth_element(levels.begin(), at, levels.end(), std::greater<>());
+  return *at;
+}
+
+Cepstrum mean_above(std::span<const Cepstrum> frames, float level) {
+  std::array<double, kCepstra> sums{};
+  double count = 0;
+  for (const Cepstrum& frame : frames) {
+    if (frame[0] < level) continue;
+    ++count;
+    for (std::size_t i = 0; i < kCepstra; ++i) sums[i] += double(frame[i]);
+  }
+  Cepstrum mean{};
+  for (std::size_t i = 0; i < kCepstra; ++i) mean[i] = float(sums[i] / std::max(count, 1.0));
+  return mean;
+}
 
 }  // namespace
 
@@ -65,32 +89,23 @@ void to_whole(std::span<const float> samples, Trace& trace, std::vector<std::int
   }
 }
 
-float loudness_of(const std::vector<float>& samples) {
-  std::vector<float> peaks;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (i % kPeakBlock == 0) peaks.push_back(0);
-    peaks.back() = std::max(peaks.back(), std::abs(samples[i]));
-  }
-  const auto high = peaks.begin() + std::ptrdiff_t(0.9 * double(peaks.size() - 1));
-  std::nth_element(peaks.begin(), high, peaks.end());
-  return *high;
+// The middle of a window lies in the block behind the one that it begins in.
+bool is_speech(std::span<const std::uint8_t> speech, std::size_t frame) {
+  return !speech.empty() && speech[std::min(frame + 1, speech.size() - 1)] != 0;
 }
 
-Cepstrum mean_of_loud(std::span<const Cepstrum> frames) {
+Cepstrum mean_of_speech(std::span<const Cepstrum> frames, std::span<const std::uint8_t> speech) {
   std::vector<float> levels;
-  for (const Cepstrum& frame : frames) levels.push_back(frame[0]);
-  const auto quiet = levels.begin() + std::ptrdiff_t(kQuietShare * double(levels.size() - 1));
-  std::nth_element(levels.begin(), quiet, levels.end());
-  std::array<double, kCepstra> sums{};
-  double count = 0;
-  for (const Cepstrum& frame : frames) {
-    if (frame[0] < *quiet) continue;
-    ++count;
-    for (std::size_t i = 0; i < kCepstra; ++i) sums[i] += double(frame[i]);
+  std::size_t count = 0;
+  for (std::size_t t = 0; t < frames.size(); ++t) {
+    levels.push_back(frames[t][0]);
+    count += is_speech(speech, t) ? 1 : 0;
   }
-  Cepstrum mean{};
-  for (std::size_t i = 0; i < kCepstra; ++i) mean[i] = float(sums[i] / std::max(count, 1.0));
-  return mean;
+  if (count < kFewOfSpeech)
+    return mean_above(frames, level_of_loudest(levels, kLoudShare * double(levels.size())));
+  static const double f = getenv("FACT") ? atof(getenv("FACT")) : 1.2;
+  return mean_above(frames, level_of_loudest(levels, std::min(kSpeechAndEdges * double(count),
+                                                              kMostOfAll * double(levels.size()))));
 }
 
 Features features_of(std::span<const Cepstrum> frames, std::size_t at, const Cepstrum& mean) {

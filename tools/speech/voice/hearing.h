@@ -49,12 +49,13 @@ struct Trace {
 /// Samples as the model wants them.
 void to_whole(std::span<const float> samples, Trace& trace, std::vector<std::int16_t>& whole);
 
-/// The peak that a tenth of the blocks of 10 ms exceeds: speech, not a click. At least one sample.
-float loudness_of(const std::vector<float>& samples);
+/// Whether a frame is speech by the blocks of a SpeechPart whose sample 0 is that of frame 0.
+bool is_speech(std::span<const std::uint8_t> speech, std::size_t frame);
 
-/// The mean of the louder seven tenths of at least one frame: quiet frames are the room, not the
-/// voice.
-Cepstrum mean_of_loud(std::span<const Cepstrum> frames);
+/// The mean of the frames that are speech, as is_speech() has it; of the louder seven tenths if
+/// that are hardly any. At least one frame. Silence and noise have another mean than the voice,
+/// which they would move by how much there is of them.
+Cepstrum mean_of_speech(std::span<const Cepstrum> frames, std::span<const std::uint8_t> speech);
 
 /// Features of frame `at`, which has kFeatureReach neighbours on either side or the ends of
 /// `frames`.

@@ -9,6 +9,7 @@
 #include "tools/speech/voice/align.h"
 #include "tools/speech/voice/denoise.h"
 #include "tools/speech/voice/hearing.h"
+#include "tools/speech/voice/speech_part.h"
 #include "tools/speech/voice/word_search.h"
 
 namespace animeme::voice {
@@ -156,10 +157,10 @@ constexpr double kBelieved = 0.25;          // words that are named
 constexpr std::size_t kBlockFrames = 2000;  // drawn at once
 constexpr std::size_t kLookAhead = 100;     // frames beyond, which settle how a block ends
 
-std::vector<Cepstrum> cepstra_of(CepstraReader& reader, const std::vector<float>& samples) {
+std::vector<Cepstrum> cepstra_of(CepstraReader& reader, const SpeechPart& part) {
   std::vector<std::int16_t> whole;
-  Trace trace{loudness_of(samples), 0};
-  to_whole(samples, trace, whole);
+  Trace trace{part.loud, 0};
+  to_whole(denoised(part.samples, part.snr), trace, whole);
   std::vector<Cepstrum> frames;
   reader.push(whole, frames);
   reader.finish(frames);
@@ -177,11 +178,11 @@ struct Drawn {
 class Drawing {
  public:
   Drawing(const HearingModel& model, WordSearch* words, std::span<const Cepstrum> frames,
-          const ListenOptions& options)
+          const Cepstrum& mean, const ListenOptions& options)
       : model_(&model),
         search_(words),
         frames_(frames),
-        mean_(mean_of_loud(frames)),
+        mean_(mean),
         options_(&options),
         free_(model.sound, model.pairs, model.weights),
         guided_(free_) {
@@ -263,12 +264,37 @@ class Drawing {
   Drawn all_;
 };
 
+// Silence before and behind the part. Returns the time of sample 0 of the recording on the clock of
+// the paths, whose frames are whole.
+double put_in_place(const HearingModel& model, const SpeechPart& part, std::size_t samples,
+                    Drawn& drawn) {
+  const auto silent = std::find(model.labels.begin(), model.labels.end(), dam::kSilence);
+  const auto silence = std::uint8_t(silent - model.labels.begin());
+  const std::size_t before = part.first / kSpeechBlock;
+  const std::size_t all = (samples - part.first + kSpeechBlock - 1) / kSpeechBlock + before;
+  const auto fill = [&](auto& values, const auto& value) {
+    values.insert(values.begin(), before, value);
+    if (values.size() < all) values.resize(all, value);
+  };
+  fill(drawn.agreed, silence);
+  for (Path& path : drawn.readings) fill(path, silence);
+  std::vector<float> vote(model.labels.size());
+  vote[silence] = 1;
+  fill(drawn.votes, vote);
+  for (FoundWord& word : drawn.words) {
+    word.first += before;
+    word.end += before;
+  }
+  return -double(part.first % kSpeechBlock) / kAlignRate;
+}
+
 // Words that are believed, and their names for the phones in them.
-void take_words(const std::vector<FoundWord>& words, double seconds, Recognition& heard) {
+void take_words(const std::vector<FoundWord>& words, double origin, double seconds,
+                Recognition& heard) {
   for (const FoundWord& word : words) {
     if (word.belief < kBelieved) continue;
-    heard.words.push_back(
-        {word.text, time_of(word.first), std::min(time_of(word.end), seconds), word.belief});
+    heard.words.push_back({word.text, time_of(word.first) - origin,
+                           std::min(time_of(word.end) - origin, seconds), word.belief});
   }
   auto word = heard.words.begin(), last = heard.words.end();
   std::vector<dam::Phone>& phones = heard.script.phones;
@@ -304,7 +330,7 @@ void sum_up(Recognition& heard) {
   }
 }
 
-bool is_clipped(const std::vector<float>& samples) {
+bool is_clipped(std::span<const float> samples) {
   const auto full = std::count_if(samples.begin(), samples.end(),
                                   [](float one) { return std::abs(double(one)) >= kFull; });
   return double(full) > kMostFull * double(samples.size());
@@ -327,7 +353,8 @@ Result<Recognition> listen(const media::Pcm& audio, const ListenOptions& options
   if (!model) return model.error();
   auto reader = CepstraReader::open(options.model_path);
   if (!reader) return reader.error();
-  const std::vector<Cepstrum> frames = cepstra_of(**reader, denoised(audio.samples));
+  const SpeechPart part = find_speech(audio.samples);
+  const std::vector<Cepstrum> frames = cepstra_of(**reader, part);
   Recognition heard;
   if (frames.empty()) return make_error(Code::truncated, "there is nothing to hear");
   std::unique_ptr<WordSearch> words;
@@ -337,15 +364,17 @@ Result<Recognition> listen(const media::Pcm& audio, const ListenOptions& options
     if (!opened && opened.error().code != Code::not_found) return opened.error();
     if (opened) words = std::move(*opened);
   }
-  const Drawn drawn = Drawing(*model, words.get(), frames, options).draw();
+  Drawn drawn =
+      Drawing(*model, words.get(), frames, mean_of_speech(frames, part.speech), options).draw();
+  const double origin = put_in_place(*model, part, audio.samples.size(), drawn);
   heard.script =
-      script_of_path(*model, drawn.agreed, 0, 0, seconds, &drawn.votes, &heard.confidences);
+      script_of_path(*model, drawn.agreed, 0, origin, seconds, &drawn.votes, &heard.confidences);
   for (const Path& path : drawn.readings) {
-    heard.readings.push_back(script_of_path(*model, path, 0, 0, seconds));
+    heard.readings.push_back(script_of_path(*model, path, 0, origin, seconds));
   }
-  take_words(drawn.words, seconds, heard);
+  take_words(drawn.words, origin, seconds, heard);
   sum_up(heard);
-  if (is_clipped(audio.samples)) {
+  if (is_clipped(std::span(audio.samples).subspan(part.first, part.samples.size()))) {
     heard.warnings.push_back("the sound is clipped in many places; record it at a lower level");
   }
   return heard;

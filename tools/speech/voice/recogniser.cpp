@@ -92,6 +92,23 @@ void append(const SoundModel& model, const PlacedPart& placed, const std::vector
   }
 }
 
+// From times of the part to those of the recording; before and behind the part is silence.
+void move_to(const SpeechPart& part, std::vector<Segment>& segments) {
+  if (segments.empty()) return;
+  const double first = double(part.first) / kAlignRate;
+  const double last = first + double(part.samples.size()) / kAlignRate;
+  for (Segment& segment : segments) segment.start += first;
+  const auto silence = [](double start) {
+    return Segment{start, std::string(dam::kSilence), kNoWord, 0, 1, false};
+  };
+  if (segments.front().label == dam::kSilence) {
+    segments.front().start = 0;
+  } else if (first > 0) {
+    segments.insert(segments.begin(), silence(0));
+  }
+  if (segments.back().label != dam::kSilence) segments.push_back(silence(last));
+}
+
 }  // namespace
 
 Result<void> check_recogniser(const AlignOptions& options) {
@@ -110,17 +127,18 @@ Result<void> check_recogniser(const AlignOptions& options) {
   return {};
 }
 
-Result<Recognised> recognise(const std::vector<float>& samples,
-                             const std::vector<SpokenWord>& words, const AlignOptions& options) {
+Result<Recognised> recognise(const SpeechPart& part, const std::vector<SpokenWord>& words,
+                             const AlignOptions& options) {
   const auto model = read_sound_model(options.model_path);
   if (!model) return model.error();
   const auto reader = CepstraReader::open(options.model_path);
   if (!reader) return reader.error();
   const bool english = is_english(options.language);
   const auto models = models_of(*model, words, english);
-  const auto placed = place_words(*model, measure_sound(**reader, samples), models, !english);
+  const auto placed = place_words(*model, measure_sound(**reader, part), models, !english);
   Recognised result{{}, placed.explained};
-  for (const PlacedPart& part : placed.parts) append(*model, part, models, result.segments);
+  for (const PlacedPart& one : placed.parts) append(*model, one, models, result.segments);
+  move_to(part, result.segments);
   return result;
 }
 

@@ -8,6 +8,7 @@
 
 #include "fap/result.h"
 #include "tools/speech/voice/pronunciation.h"
+#include "tools/speech/voice/speech_part.h"
 
 namespace animeme::voice {
 
@@ -34,8 +35,8 @@ struct Recognised {
   double explained = 0;           ///< Placement::explained
 };
 
-/// Places the words in samples of 16 kHz. Errors as check_recogniser().
-Result<Recognised> recognise(const std::vector<float>& samples,
-                             const std::vector<SpokenWord>& words, const AlignOptions& options);
+/// Places the words in speech; times are those of the recording. Errors as check_recogniser().
+Result<Recognised> recognise(const SpeechPart& part, const std::vector<SpokenWord>& words,
+                             const AlignOptions& options);
 
 }  // namespace animeme::voice

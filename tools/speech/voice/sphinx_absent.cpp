@@ -22,7 +22,7 @@ Result<std::vector<double>> read_phone_pairs(const std::string&, const std::vect
   return absent();
 }
 
-std::vector<float> denoised(const std::vector<float>& samples) { return samples; }
+std::vector<float> denoised(const std::vector<float>& samples, double) { return samples; }
 
 Result<std::unique_ptr<RateChange>> RateChange::open(int) { return absent(); }
 

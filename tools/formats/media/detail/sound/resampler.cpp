@@ -17,9 +17,11 @@ Result<Resampler> Resampler::open(const SoundFormat& from, int sample_rate,
   if (from.mask == 0 || av_channel_layout_from_mask(&layout, from.mask) < 0) {
     av_channel_layout_default(&layout, from.channels);
   }
-  AVChannelLayout mono = AV_CHANNEL_LAYOUT_MONO;
+  const bool stereo = from.channels == 2 && (from.mask == 0 || from.mask == AV_CH_LAYOUT_STEREO);
+  AVChannelLayout to = AV_CHANNEL_LAYOUT_MONO;
+  if (stereo) to = AV_CHANNEL_LAYOUT_STEREO;
   SwrContext* raw = nullptr;
-  const int made = swr_alloc_set_opts2(&raw, &mono, AV_SAMPLE_FMT_FLT, sample_rate, &layout,
+  const int made = swr_alloc_set_opts2(&raw, &to, AV_SAMPLE_FMT_FLT, sample_rate, &layout,
                                        from.format, from.sample_rate, 0, nullptr);
   av_channel_layout_uninit(&layout);
   Resampler resampler;
@@ -30,6 +32,7 @@ Result<Resampler> Resampler::open(const SoundFormat& from, int sample_rate,
                       std::to_string(from.channels) +
                           " channels cannot be mixed down to one: " + av::error_text(status));
   }
+  if (stereo) resampler.stereo_.emplace(sample_rate);
   resampler.from_ = from;
   resampler.rate_ = sample_rate;
   resampler.out_ = &out;
@@ -43,10 +46,14 @@ Result<void> Resampler::convert(const std::uint8_t** planes, int count) {
   if (old + std::size_t(room) > kMostSamples + (std::size_t(1) << 20)) {
     return make_error(Code::out_of_range, "the sound is too long");
   }
-  out_->resize(old + std::size_t(room));
-  auto* target = reinterpret_cast<std::uint8_t*>(out_->data() + old);
+  const bool mixes = stereo_.has_value();
+  std::vector<float>& made = mixes ? pairs_ : *out_;
+  const std::size_t begin = mixes ? 0 : old;
+  made.resize(begin + std::size_t(room) * (mixes ? 2 : 1));
+  auto* target = reinterpret_cast<std::uint8_t*>(made.data() + begin);
   const int got = swr_convert(swr_.get(), &target, room, planes, count);
-  out_->resize(old + std::size_t(std::max(got, 0)));
+  made.resize(begin + std::size_t(std::max(got, 0)) * (mixes ? 2 : 1));
+  if (mixes) stereo_->mix(pairs_, *out_);
   if (got < 0) return av::make_av_error(got, "the sound cannot be resampled");
   given_ += got;
   return {};

@@ -1,10 +1,13 @@
-// libswresample for one stretch of sound with a constant format: anything to mono float.
+// libswresample for one stretch of sound with a constant format: anything to mono float. Two
+// channels are mixed by StereoMix.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "tools/formats/media/detail/ffmpeg/ffmpeg.h"
+#include "tools/formats/media/detail/sound/stereo_mix.h"
 
 namespace animeme::media {
 
@@ -42,6 +45,8 @@ class Resampler {
   SoundFormat from_;
   int rate_ = 0;
   av::Swr swr_;
+  std::optional<StereoMix> stereo_;  // swr_ makes pairs
+  std::vector<float> pairs_;
   std::vector<float>* out_ = nullptr;
   std::int64_t taken_ = 0;
   std::int64_t given_ = 0;
