@@ -35,11 +35,6 @@ Telling tell_base(const Model& base, std::span<const Control> own,
                   std::span<const Utterance* const> sentences, std::span<const Signal* const> made,
                   std::vector<AdaptedControl>* found = nullptr);
 
-/// The articulators that control are of, numbered from 0: they have weights in common. FAPs and
-/// ARKit shapes: jaw, opening of the lips, width, corners' height, forward; 0 for all others.
-inline constexpr std::size_t kArticulatorGroups = 5;
-std::vector<std::size_t> articulators_of(std::span<const std::string> names);
-
 /// The same curves for all phones of the base, which has the same dominance: phones that the model
 /// lacks have the mean of its speech, and the terms of their class.
 Model with_phones_of(const Model& base, const Model& model);

@@ -5,7 +5,7 @@
 #include "dam/corpus/statistics_internal.h"
 #include "dam/kinds/refined/terms.h"
 #include "dam/maths/linear_algebra.h"
-#include "dam/signal/fap_signal.h"
+#include "dam/signal/articulators_internal.h"
 #include "dam/training/adapt_internal.h"
 
 namespace animeme::dam {
@@ -132,62 +132,6 @@ TermTable table_of(RefinedTerm term, const Sum& sum, std::size_t controls) {
 
 }  // namespace
 
-std::vector<std::size_t> articulators_of(std::span<const std::string> names) {
-  enum : std::size_t { jaw, lips, width, corners, forward };
-  constexpr std::pair<std::string_view, std::size_t> kShapes[] = {{"jaw", jaw},
-                                                                  {"mouthStretch", width},
-                                                                  {"mouthDimple", width},
-                                                                  {"mouthSmile", corners},
-                                                                  {"mouthFrown", corners},
-                                                                  {"mouthPucker", forward},
-                                                                  {"mouthFunnel", forward},
-                                                                  {"mouth", lips}};
-  std::vector<std::size_t> of;
-  for (const std::string& name : names) {
-    switch (fap_of_channel(name)) {
-      case 0: {
-        const auto shape = std::find_if(std::begin(kShapes), std::end(kShapes),
-                                        [&](const auto& s) { return name.starts_with(s.first); });
-        of.push_back(shape != std::end(kShapes) ? shape->second : 0);
-        break;
-      }
-      case 4:
-      case 5:
-      case 8:
-      case 9:
-      case 10:
-      case 11:
-      case 51:
-      case 52:
-      case 55:
-      case 56:
-      case 57:
-      case 58:
-        of.push_back(lips);
-        break;
-      case 6:
-      case 7:
-      case 53:
-      case 54:
-        of.push_back(width);
-        break;
-      case 12:
-      case 13:
-      case 59:
-      case 60:
-        of.push_back(corners);
-        break;
-      case 16:
-      case 17:
-        of.push_back(forward);
-        break;
-      default:
-        of.push_back(jaw);
-    }
-  }
-  return of;
-}
-
 Model with_levels(const Model& base) {
   Model out = base;
   const std::size_t nx = base.controls.size(), all = nx + kLevels;
@@ -219,20 +163,24 @@ Telling tell_base(const Model& base, std::span<const Control> own,
   const std::size_t ny = own.size(), nx = base.controls.size() - kLevels, all = nx + kLevels;
   const auto& names = sentences[0]->signal.names;
   const std::vector<double> mixed = mixtures(m);
-  const auto group = articulators_of(names);
+  // Other controls share the correlation of the jaw.
+  const auto group_of = [&](std::size_t c) {
+    const Articulator articulator = articulator_of(names[c]);
+    return std::size_t(articulator == Articulator::other ? Articulator::jaw : articulator);
+  };
   const auto place_of = [&](std::size_t c) {
     const std::int32_t same = base.find_control(names[c]);
     return same >= 0 && m.xx[std::size_t(same) * (nx + 1)] > 0 && m.yy[c] > 0 ? same : -1;
   };
   // The correlation of a single control is uncertain with few sentences, that of its articulator
   // less so.
-  std::vector<double> correlation(kArticulatorGroups), members(kArticulatorGroups);
+  std::vector<double> correlation(kArticulatorCount), members(kArticulatorCount);
   for (std::size_t c = 0; c < ny; ++c) {
     const std::int32_t b = place_of(c);
     if (b < 0) continue;
-    correlation[group[c]] +=
+    correlation[group_of(c)] +=
         m.xy[c * nx + std::size_t(b)] / std::sqrt(m.xx[std::size_t(b) * (nx + 1)] * m.yy[c]);
-    members[group[c]] += 1;
+    members[group_of(c)] += 1;
   }
   Telling telling{std::vector<double>(ny), std::vector<double>(ny * all)};
   for (std::size_t c = 0; c < ny; ++c) {
@@ -240,7 +188,7 @@ Telling tell_base(const Model& base, std::span<const Control> own,
     const bool same = base.find_control(names[c]) >= 0;
     double own_gain = 0;
     if (const std::int32_t b = place_of(c); b >= 0) {
-      const double common = std::max(0.0, correlation[group[c]] / members[group[c]]);
+      const double common = std::max(0.0, correlation[group_of(c)] / members[group_of(c)]);
       own_gain = common * std::sqrt(m.yy[c] / m.xx[std::size_t(b) * (nx + 1)]);
       gain[std::size_t(b)] = own_gain;
     } else if (!same) {

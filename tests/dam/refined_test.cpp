@@ -490,6 +490,34 @@ TEST(Refined, SharperMotionIsQuickerAndHoldsWhatLasts) {
                 1e-4);
 }
 
+// The same curve gains more speed as the width of the mouth than as the jaw.
+TEST(Refined, ArticulatorsThatTrainingSlowsDownAreSharpenedMore) {
+  auto model = train(test::planted(20));
+  ASSERT_TRUE(model);
+  const Script script = test::planted(1)[0].script;
+  SynthesisOptions options;
+  options.closure = options.rest_at_ends = false;
+  options.rate = {50, 1};
+  const auto added = [&](const char* name) {
+    model->controls[0].name = name;
+    options.sharpness = 0;
+    const Signal plain = *synthesise(*model, script, options);
+    options.sharpness = 1;
+    const Signal sharp = *synthesise(*model, script, options);
+    double sum = 0;
+    for (std::size_t i = 0; i < plain.frames(); ++i)
+      sum += std::abs(sharp.at(i, 0) - plain.at(i, 0));
+    return sum;
+  };
+  const double other = added("tail"), jaw = added("fap3_open_jaw");
+  EXPECT_GT(other, 0);
+  EXPECT_GT(jaw, 0);
+  EXPECT_LT(jaw, other);
+  EXPECT_GT(added("fap6_stretch_l_cornerlip"), 2 * jaw);
+  EXPECT_GT(added("fap12_raise_l_cornerlip"), 1.2 * jaw);
+  EXPECT_NEAR(added("mouthStretchLeft"), added("fap54"), 1e-6 * other);
+}
+
 TEST(Refined, TriphonesAreThoseThatOccurOften) {
   TrainOptions options;
   const auto model = train(test::planted(30), options);

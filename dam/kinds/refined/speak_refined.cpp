@@ -8,6 +8,7 @@
 #include "dam/kinds/refined/refined.h"
 #include "dam/kinds/refined/terms.h"
 #include "dam/maths/raised_cosine.h"
+#include "dam/signal/articulators_internal.h"
 #include "dam/speaking/synthesise.h"
 
 namespace animeme::dam {
@@ -32,9 +33,24 @@ Neighbourhood neighbourhood(const Speech& speech, std::size_t j) {
 }
 
 /// Least squares draw curves together where the recordings differ, so they are slower than these.
-/// A frame is moved away from the mean of its surroundings by this share of the distance; seconds
-/// of the surroundings on each side, weighted by a raised cosine. `dam/measured.md` has the choice.
-constexpr double kSharpening = 0.35, kSharpeningReach = 0.12;
+/// A frame is moved away from the mean of its surroundings by a share of the distance. Scripts tell
+/// less of the corners of the mouth than of jaw and lips, so these are slowed down more. Seconds of
+/// the surroundings on each side, weighted by a raised cosine. `dam/measured.md` has the choice.
+constexpr double kSharpeningReach = 0.12;
+constexpr double sharpening_of(Articulator articulator) {
+  switch (articulator) {
+    case Articulator::jaw:
+      return 0.3;
+    case Articulator::lips:
+      return 0.25;
+    case Articulator::width:
+      return 0.8;
+    case Articulator::corners:
+      return 0.45;
+    default:
+      return 0.35;
+  }
+}
 
 /// The row of a key in ascending keys; their number if it is not there. Without branches, which
 /// nobody could foresee: half of the time of a phone went into finding its terms.
@@ -60,7 +76,8 @@ class Voice {
         curve_(kRefinedOrders * controls_),
         before_(controls_),
         after_(controls_),
-        kernel_(sharpening(speech)),
+        kernel_(surroundings(speech)),
+        sharpening_(sharpening(speech)),
         first_(double(speech.first_frame) - double(kernel_.size())),
         frames_(speech.frames + 2 * kernel_.size()),
         sum_(frames_, 0.0),
@@ -106,36 +123,46 @@ class Voice {
       const auto scale = float(1 / std::max(sum_[i], 1e-12));
       for (std::size_t c = 0; c < controls_; ++c) blend_[i * controls_ + c] *= scale;
     }
-    double rest = 1;
-    for (const double weight : kernel_) rest += 2 * weight;
     const std::size_t beside = kernel_.size();
+    std::vector<float> around(controls_);
     for (std::size_t i = 0; i < speech_.frames; ++i) {
-      double* out = &rows[i * controls_];
       const float* here = &blend_[(i + beside) * controls_];
-      for (std::size_t c = 0; c < controls_; ++c) out[c] = rest * double(here[c]);
-      for (std::size_t k = 0; k < beside; ++k) {
-        const float* before = here - (k + 1) * controls_;
-        const float* after = here + (k + 1) * controls_;
-        for (std::size_t c = 0; c < controls_; ++c)
-          out[c] -= kernel_[k] * (double(before[c]) + double(after[c]));
-      }
+      double* out = &rows[i * controls_];
+      std::fill(around.begin(), around.end(), 0.0F);
+      for (std::size_t k = 0; k < beside; ++k)
+        add_differences(kernel_[k], here, here - (k + 1) * controls_, here + (k + 1) * controls_,
+                        around.data());
+      for (std::size_t c = 0; c < controls_; ++c)
+        out[c] = double(here[c]) + double(sharpening_[c] * around[c]);
     }
   }
 
  private:
-  /// Weights of the frames on each side, the nearest first, that are taken off a frame.
-  static std::vector<double> sharpening(const Speech& speech) {
-    const double gain = kSharpening * speech.options.sharpness;
+  /// Weights in the mean of the surroundings of the frames on each side, the nearest first.
+  static std::vector<float> surroundings(const Speech& speech) {
     const double reach = kSharpeningReach * speech.rate.frames_per_second();
-    std::vector<double> kernel;
+    std::vector<float> kernel;
     double sum = 1;
-    for (double k = 1; gain > 0 && k < reach; ++k) {
-      kernel.push_back(raised_bell(k / reach));
-      sum += 2 * kernel.back();
+    for (double k = 1; speech.options.sharpness > 0 && k < reach; ++k) {
+      kernel.push_back(float(raised_bell(k / reach)));
+      sum += 2 * double(kernel.back());
     }
-    for (double& weight : kernel) weight *= gain / sum;
+    for (float& weight : kernel) weight /= float(sum);
     return kernel;
   }
+  /// Per control: the share of the distance from the mean of the surroundings that is added.
+  static std::vector<float> sharpening(const Speech& speech) {
+    std::vector<float> gain;
+    for (const Control& control : speech.model.controls)
+      gain.push_back(float(sharpening_of(articulator_of(control.name)) * speech.options.sharpness));
+    return gain;
+  }
+  void add_differences(float weight, const float* __restrict here, const float* __restrict before,
+                       const float* __restrict after, float* __restrict sum) const {
+    for (std::size_t c = 0; c < controls_; ++c)
+      sum[c] += weight * (2 * here[c] - before[c] - after[c]);
+  }
+
   /// A frame of the clip, counted from the first that is made.
   std::size_t limited(double frame) const {
     return std::size_t(std::clamp(frame - first_, 0.0, double(frames_)));
@@ -192,7 +219,7 @@ class Voice {
   std::size_t controls_;
   std::vector<float> curve_;           // of an occurrence: orders x controls
   std::vector<float> before_, after_;  // the curve where it stands still
-  std::vector<double> kernel_;
+  std::vector<float> kernel_, sharpening_;
   double first_;  // frame; those beside the wanted ones are needed to sharpen these
   std::size_t frames_;
   std::vector<double> sum_;
