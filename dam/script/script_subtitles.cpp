@@ -12,7 +12,7 @@
 namespace animeme::dam {
 namespace {
 
-constexpr std::string_view kArrow = "-->", kHeader = "WEBVTT";
+constexpr std::string_view kArrow = "-->", kSubtitlesHeader = "WEBVTT";
 
 // The text of a cue while it is read.
 struct CueText {
@@ -70,7 +70,7 @@ void drop_number(std::vector<Line>& lines) {
 // An empty line ends a cue; one of blanks does not, which is how captions that roll begin. SubRip
 // has no empty cues: there the text begins behind the empty line.
 Result<std::vector<CueText>> read_cues(std::string_view text) {
-  const bool strict = text.starts_with(kHeader);
+  const bool strict = text.starts_with(kSubtitlesHeader);
   std::vector<CueText> cues;
   LineReader reader(text);
   Line line;
@@ -155,7 +155,7 @@ CueLine pieces_of(const Line& line, Style& style) {
 }  // namespace
 
 bool looks_like_subtitles(std::string_view text) {
-  if (text.starts_with(kHeader)) return true;
+  if (text.starts_with(kSubtitlesHeader)) return true;
   const auto rows = first_rows(text, 2);
   return std::any_of(rows.begin(), rows.end(), [](const LabelRow& row) {
     return (row.fields.size() >= 3 && row.fields[1] == kArrow && parse_clock(row.fields[0])) ||

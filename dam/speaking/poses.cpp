@@ -6,7 +6,7 @@
 namespace animeme::dam {
 namespace {
 
-constexpr double kAround = 0.5, kHeldFor = 0.3;  // seconds
+constexpr double kSilenceBeside = 0.5, kHeldFor = 0.3;  // seconds
 
 Result<void> add_phone(const Model& model, const std::string& label, Poses& poses) {
   std::string name = label;
@@ -17,14 +17,15 @@ Result<void> add_phone(const Model& model, const std::string& label, Poses& pose
         Code::invalid_argument,
         "'" + label + "' is not a phone; poses are \"rest\" or phones as AA, IY, UW, M");
   Script script;
-  script.phones = {{0, kAround, std::string(kSilence), ""},
-                   {kAround, kAround + kHeldFor, name, ""},
-                   {kAround + kHeldFor, 2 * kAround + kHeldFor, std::string(kSilence), ""}};
+  script.phones = {
+      {0, kSilenceBeside, std::string(kSilence), ""},
+      {kSilenceBeside, kSilenceBeside + kHeldFor, name, ""},
+      {kSilenceBeside + kHeldFor, 2 * kSilenceBeside + kHeldFor, std::string(kSilence), ""}};
   SynthesisOptions options;
   options.rate = {100, 1};
   const auto signal = synthesise(model, script, options);
   if (!signal) return signal.error();
-  const auto middle = std::size_t((kAround + kHeldFor / 2) * 100 + 0.5);
+  const auto middle = std::size_t((kSilenceBeside + kHeldFor / 2) * 100 + 0.5);
   for (std::size_t c = 0; c < model.controls.size(); ++c)
     poses.values.push_back(signal->at(middle, c));
   return {};

@@ -53,7 +53,7 @@ Review review(const TrainingSet& set, const Model& model, const Utterance& u,
   return out;
 }
 
-double median(std::vector<double> values) {
+double upper_median(std::vector<double> values) {
   const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
@@ -81,7 +81,7 @@ std::vector<double> offsets(const std::vector<Review>& all, const std::vector<Co
     moving += 1;
     std::vector<double> sizes;
     for (const Review& r : all) sizes.push_back(std::abs(r.offset[c]));
-    const double usual = std::max(kLeastOffset, kToDeviation * median(sizes));
+    const double usual = std::max(kLeastOffset, kToDeviation * upper_median(sizes));
     for (std::size_t s = 0; s < all.size(); ++s) sum[s] += std::pow(sizes[s] / usual, 2);
   }
   for (double& x : sum) x = std::sqrt(x / std::max(1.0, moving));
@@ -96,7 +96,7 @@ std::vector<double> relative_errors(const std::vector<Review>& all) {
     for (const double e : r.error) sum += e;
     errors.push_back(std::sqrt(sum / std::max(1.0, r.frames)));
   }
-  const double usual = median(errors);
+  const double usual = upper_median(errors);
   for (double& e : errors) e = usual > 0 ? e / usual : 0;
   return errors;
 }

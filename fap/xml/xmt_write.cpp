@@ -162,6 +162,7 @@ class XmtWriter {
       const int to = lid ? borders[i] : kTried;
       intervals.push_back(detail::moves_between(rig_, fap, from, to));
     }
+    const std::size_t before = text_.size();
     text_ += "<faceDefMesh>\n";
     const std::size_t start = text_.size();
     for (std::size_t p = 0; p < head_.parts.size(); ++p) {
@@ -170,7 +171,7 @@ class XmtWriter {
       add_mesh(p, step, borders, of_part);
     }
     if (text_.size() == start) {
-      text_.resize(start - std::string_view("<faceDefMesh>\n").size());
+      text_.resize(before);
     } else {
       text_ += "</faceDefMesh>\n";
     }

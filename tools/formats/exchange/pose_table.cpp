@@ -13,13 +13,13 @@
 namespace animeme::exchange {
 namespace {
 
-struct Columns {
+struct PoseColumns {
   std::size_t label = 0, count = 0;
   std::vector<std::size_t> controls;
 };
 
-Result<Columns> read_header(const Row& header, dam::Poses& poses) {
-  Columns columns;
+Result<PoseColumns> read_header(const Row& header, dam::Poses& poses) {
+  PoseColumns columns;
   columns.count = header.size();
   std::optional<std::size_t> label;
   for (std::size_t i = 0; i < header.size(); ++i) {

@@ -12,13 +12,13 @@ namespace animeme::exchange {
 
 namespace {
 
-constexpr double kLongestGap = 0.2;       // seconds
-constexpr double kLongestSlip = 0.1;      // seconds
-constexpr double kFar = 0.5;              // of the size of the face: elsewhere
-constexpr double kNear = 0.25;            // back again
-constexpr double kGrown = 1.25;           // of another size
-constexpr double kSlowest = 15;           // frames a second
-constexpr std::size_t kFewestPoints = 6;  // that tell where a face is
+constexpr double kLongestGap = 0.2;             // seconds
+constexpr double kLongestSlip = 0.1;            // seconds
+constexpr double kFar = 0.5;                    // of the size of the face: elsewhere
+constexpr double kNear = 0.25;                  // back again
+constexpr double kGrown = 1.25;                 // of another size
+constexpr double kSlowest = 15;                 // frames a second
+constexpr std::size_t kFewestPointsAround = 6;  // that tell where a face is
 constexpr double kNotSeen = std::numeric_limits<double>::quiet_NaN();
 
 bool seen(const fap::Point& point) { return point[0] == point[0] && point[1] == point[1]; }
@@ -57,7 +57,7 @@ std::optional<Shift> shift_between(const fap::LandmarkFrame& a, const fap::Landm
     dx.push_back(bx.back() - ax.back());
     dy.push_back(by.back() - ay.back());
   }
-  if (ax.size() < kFewestPoints) return std::nullopt;
+  if (ax.size() < kFewestPointsAround) return std::nullopt;
   const double before = size_of(ax, ay);
   const double behind = size_of(bx, by);
   if (!(before > 0) || !(behind > 0) || !std::isfinite(before + behind)) return std::nullopt;
@@ -98,7 +98,7 @@ double reach_of(const fap::LandmarkTrack& track, const Eyes& eyes) {
       x.push_back(point[0]);
       y.push_back(point[1]);
     }
-    if (x.size() < kFewestPoints) continue;
+    if (x.size() < kFewestPointsAround) continue;
     std::vector<double> distances = distances_of(x, y);
     const double size = median(distances);
     double reach = eyes.apart(frame);

@@ -12,7 +12,7 @@ namespace animeme::media {
 namespace {
 
 constexpr const char* kTextFormats = "mov,matroska";
-constexpr std::size_t kLongestName = 100;
+constexpr std::size_t kLongestTrackName = 100;
 constexpr double kOpen = HUGE_VAL;  // a cue that ends with the next packet
 
 // Not by a factor, which would make 0.19999999999999998 of 0.2.
@@ -148,8 +148,8 @@ Result<std::vector<TextTrack>> read_playlist_text(const std::string& path,
     Result<std::vector<TextTrack>> read = TextReader(**input, limits).read();
     if (!read) return read;
     for (TextTrack& track : *read) {
-      track.name = clean_text(text.name, kLongestName);
-      const std::string language = clean_text(text.language, kLongestName);
+      track.name = clean_text(text.name, kLongestTrackName);
+      const std::string language = clean_text(text.language, kLongestTrackName);
       track.language = language.empty() ? "und" : language;
       tracks.push_back(std::move(track));
     }

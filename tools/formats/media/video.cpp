@@ -12,7 +12,7 @@ namespace animeme::media {
 namespace {
 
 // By VideoCodec.
-constexpr std::array kNames = {"h264", "vp9", "mpeg4"};
+constexpr std::array kCodecNames = {"h264", "vp9", "mpeg4"};
 // Asked for by name: FFmpeg's own choice for H.264 may be hardware that is not there.
 constexpr std::array kEncoders = {"libx264", "libvpx-vp9", "mpeg4"};
 
@@ -102,7 +102,7 @@ Result<av::Sws> open_scaler(const VideoSettings& settings) {
 
 }  // namespace
 
-const char* name_of(VideoCodec codec) { return kNames[std::size_t(codec)]; }
+const char* name_of(VideoCodec codec) { return kCodecNames[std::size_t(codec)]; }
 
 Result<VideoCodec> video_codec_for(std::string_view extension) {
   constexpr std::array kAny = {VideoCodec::h264, VideoCodec::vp9, VideoCodec::mpeg4};

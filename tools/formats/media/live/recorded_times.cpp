@@ -11,8 +11,8 @@ namespace animeme::media {
 
 namespace {
 
-constexpr double kLongestHeld = 1;       // seconds
-constexpr std::size_t kMostHeld = 1000;  // units, whatever their times say
+constexpr double kLongestHeld = 1;            // seconds
+constexpr std::size_t kMostUnitsHeld = 1000;  // units, whatever their times say
 constexpr std::size_t kCodeBytes = 4;
 
 // Streams begin with the object start code, planes in their middle do not.
@@ -32,7 +32,8 @@ void RecordedTimes::push(const LiveInfo& info, LiveUnit unit) {
   held_.push_back(std::move(unit));
   const bool face_is_there = first_[0] || info.face_config.empty();
   const bool sound_is_there = first_[1] || !info.audio;
-  if ((face_is_there && sound_is_there) || lasted >= kLongestHeld || held_.size() > kMostHeld) {
+  if ((face_is_there && sound_is_there) || lasted >= kLongestHeld ||
+      held_.size() > kMostUnitsHeld) {
     settle(info);
   }
 }

@@ -10,7 +10,7 @@
 namespace animeme::media {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using SteadyClock = std::chrono::steady_clock;
 
 /// A connection that has brought so many bytes without a program is none of ours.
 constexpr std::int64_t kEnoughToTell = std::int64_t(1) << 20;
@@ -23,8 +23,9 @@ class TsSource : public LiveSource {
 
   Result<LiveEvent> next(double seconds) override {
     return av::guarded([&]() -> Result<LiveEvent> {
-      const auto until = Clock::now() + std::chrono::microseconds(
-                                            std::int64_t(std::clamp(seconds, 0.0, 1e6) * 1e6));
+      const auto until =
+          SteadyClock::now() +
+          std::chrono::microseconds(std::int64_t(std::clamp(seconds, 0.0, 1e6) * 1e6));
       while (events_.empty()) {
         if (over_) return LiveEvent(LiveEnd{});
         auto datagram = reader_->next(until);
@@ -52,7 +53,7 @@ class TsSource : public LiveSource {
 
  private:
   static double seconds_now() {
-    return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+    return std::chrono::duration<double>(SteadyClock::now().time_since_epoch()).count();
   }
 
   std::unique_ptr<NetReader> reader_;
