@@ -41,7 +41,7 @@ bool is_wide(char32_t c) {
 }
 
 // Marks above and below a letter take no column of their own.
-bool is_mark(char32_t c) {
+bool is_combining(char32_t c) {
   return is_between(c, 0x0300, 0x036F) || is_between(c, 0x064B, 0x065F) ||
          is_between(c, 0x200B, 0x200F) || is_between(c, 0xFE00, 0xFE0F);
 }
@@ -50,7 +50,7 @@ std::size_t columns_of(std::string_view text) {
   std::size_t columns = 0;
   while (!text.empty()) {
     const char32_t c = take_code_point(text);
-    columns += is_mark(c) ? 0 : is_wide(c) ? 2 : 1;
+    columns += is_combining(c) ? 0 : is_wide(c) ? 2 : 1;
   }
   return columns;
 }
