@@ -41,12 +41,6 @@ constexpr std::pair<std::string_view, char32_t> kReferences[] = {
     {"sol", U'/'},     {"lowbar", U'_'},   {"hyphen", U'-'},   {"NewLine", U' '},
     {"Tab", U' '},     {"sung", 0x266A}};
 
-// What browsers take 128 to 159 for.
-constexpr char32_t kWindows[32] = {0x20AC, 0x81,   0x201A, 0x192,  0x201E, 0x2026, 0x2020, 0x2021,
-                                   0x2C6,  0x2030, 0x160,  0x2039, 0x152,  0x8D,   0x17D,  0x8F,
-                                   0x90,   0x2018, 0x2019, 0x201C, 0x201D, 0x2022, 0x2013, 0x2014,
-                                   0x2DC,  0x2122, 0x161,  0x203A, 0x153,  0x9D,   0x17E,  0x178};
-
 char32_t number_of(std::string_view digits) {
   const bool hex = digits.starts_with('x') || digits.starts_with('X');
   if (hex) digits.remove_prefix(1);
@@ -54,7 +48,7 @@ char32_t number_of(std::string_view digits) {
   const auto [end, error] =
       std::from_chars(digits.data(), digits.data() + digits.size(), code, hex ? 16 : 10);
   if (error != std::errc() || end != digits.data() + digits.size()) return 0;
-  if (code >= 0x80 && code < 0xA0) return kWindows[code - 0x80];
+  if (code >= 0x80 && code < 0xA0) return from_windows(char(code));  // as browsers do
   if (code < 0x20 || code == 0x7F) return U' ';
   return code > 0x10FFFF || (code >= 0xD800 && code <= 0xDFFF) ? 0xFFFD : char32_t(code);
 }

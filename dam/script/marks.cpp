@@ -23,17 +23,28 @@ constexpr std::string_view kPhoneMarkParts[] = {"noise",   "laugh", "breath", "c
                                                 "silence", "trans", "pause",  "exclude",  "speech",
                                                 "inhale",  "exhal", "sigh",   "unintell", "inaud"};
 
-// How the words for sounds that people make, and for what is not understood, begin.
+// How the words for sounds that people make, and for what is not understood, begin. Only such as
+// begin nothing else in the languages that most texts are in.
 constexpr std::string_view kSoundStems[] = {
-    "laugh",   "giggl",     "chuckl", "sigh",    "cough",   "sniff",       "sob",    "gasp",
-    "groan",   "grunt",     "cries",  "crying",  "clears",  "clearing",    "breath", "inhal",
-    "exhal",   "snort",     "scream", "whisper", "yawn",    "humming",     "hums",   "whistl",
-    "applau",  "music",     "noise",  "silence", "pause",   "click",       "beep",   "inaudib",
-    "unintel", "crosstalk", "cheer",  "clap",    "snicker", "moan",        "sneez",  "gulp",
-    "swallow", "shout",     "mumbl",  "murmur",  "pant",    "blank_audio", "smack",  "snor",
-    "chatter", "indistinct"};
+    "laugh", "giggl", "chuckl", "sigh", "cough", "sniff", "sob", "gasp", "groan", "grunt", "cries",
+    "crying", "clears", "clearing", "breath", "inhal", "exhal", "snort", "scream", "whisper",
+    "yawn", "humming", "hums", "whistl", "applau", "music", "noise", "silence", "pause", "click",
+    "beep", "inaudib", "unintel", "crosstalk", "cheer", "clap", "snicker", "moan", "sneez", "gulp",
+    "swallow", "shout", "mumbl", "murmur", "pant", "blank_audio", "smack", "snor", "chatter",
+    "indistinct",
+    // German
+    "lacht", "lachen", "gelächter", "kichert", "kichern", "seufz", "husten", "hustet", "räusper",
+    "stöhn", "schluchz", "flüster", "musik", "beifall", "geräusch", "unverständlich",
+    // French
+    "rires", "soupir", "tousse", "toux", "musique", "bruit", "sanglot", "chuchot",
+    // Spanish, Portuguese, Italian
+    "risas", "risos", "risat", "risad", "suspir", "sospir", "tosse", "música", "ruido", "ruído",
+    "rumore", "susurr", "sussurr", "aplauso", "silencio", "silêncio", "silenzio",
+    // Dutch
+    "gelach", "zucht", "hoest", "muziek", "fluister", "snikt"};
 
 constexpr std::size_t kLongestMark = 200;  // bytes; what is longer is an aside
+constexpr std::size_t kLongestName = 60;   // of a mark that we do not know
 
 char closing_bracket(char open) {
   switch (open) {
@@ -58,6 +69,11 @@ bool is_letter_or_digit(char c) {
          ((byte | 0x20) >= 'a' && (byte | 0x20) <= 'z');
 }
 
+bool is_letter(char c) {
+  const auto byte = static_cast<unsigned char>(c);
+  return byte >= 0x80 || ((byte | 0x20) >= 'a' && (byte | 0x20) <= 'z');
+}
+
 // "clears throat", "LAUGHTER", "speaks softly, sighs".
 bool names_a_sound(std::string_view inside) {
   const std::string text = lower_case(inside);
@@ -75,6 +91,29 @@ bool is_known_mark(std::string_view inside) {
   return names_a_sound(inside) || lower_case(inside) == "unk";
 }
 
+// Of what stands in square brackets in prose, some is said: "[he] came", "press [Enter]", "[1]". A
+// mark of a name that we do not know stands where a sentence begins or behind its end, and what
+// follows it does not go on with the sentence.
+bool stands_alone(std::string_view text, std::size_t at, std::size_t end) {
+  const std::string_view inside = text.substr(at + 1, end - at - 2);
+  if (std::none_of(inside.begin(), inside.end(), is_letter) || inside.size() > kLongestName) {
+    return false;
+  }
+  constexpr std::string_view kBlank = " \t\r\n";
+  const std::size_t before = text.substr(0, at).find_last_not_of(kBlank);
+  constexpr std::string_view kEnds[] = {".",  "!", "?", "…", "。", "！",
+                                        "？", "]", ")", "*", "”",  "\""};
+  const std::string_view left = text.substr(0, before + 1);
+  const bool begins = before == std::string_view::npos ||
+                      text.substr(before + 1, at - before - 1).find('\n') != text.npos ||
+                      std::any_of(std::begin(kEnds), std::end(kEnds),
+                                  [&](std::string_view sign) { return left.ends_with(sign); });
+  if (!begins) return false;
+  if (end < text.size() && kBlank.find(text[end]) == kBlank.npos) return false;  // "[H]e", a link
+  const std::size_t after = text.find_first_not_of(kBlank, end);
+  return after == std::string_view::npos || !(text[after] >= 'a' && text[after] <= 'z');
+}
+
 // Where the mark that begins at `at` ends, one behind its last character; 0: none begins there.
 std::size_t end_of_mark(std::string_view text, std::size_t at, MarksOf from) {
   const char open = text[at], close = closing_bracket(open);
@@ -90,7 +129,8 @@ std::size_t end_of_mark(std::string_view text, std::size_t at, MarksOf from) {
     if (--depth > 0) continue;
     const std::string_view inside = text.substr(at + 1, i - at - 1);
     const bool all = from == MarksOf::captions && open != '*' && trimmed(inside).size() > 0;
-    return all || is_known_mark(inside) ? i + 1 : 0;
+    const bool alone = from == MarksOf::prose && open == '[' && stands_alone(text, at, i + 1);
+    return all || alone || is_known_mark(inside) ? i + 1 : 0;
   }
   return 0;
 }

@@ -26,7 +26,8 @@ bool is_mark_among_phones(std::string_view label);
 /// Where a text is from, which decides what its brackets hold.
 enum class MarksOf : std::uint8_t {
   captions,  ///< subtitles, labels: what is in brackets is not said
-  prose,     ///< a text to be said: "(my dog)" is, "(laughs)" and "[sighs]" are not
+  prose,     ///< a text to be said: "(my dog)" is, "(laughs)" and "[sighs]" are not; nor is what
+             ///< stands in square brackets before or after a sentence, whatever its language
 };
 
 /// A text without its marks.

@@ -98,7 +98,8 @@ Result<Timings> read_timings(std::string_view text, const ScriptOptions& options
   if (!(options.rate >= 0) || !std::isfinite(options.rate)) {
     return make_error(Code::invalid_argument, "the rate of a script must be a number above 0");
   }
-  const std::string utf8 = to_utf8(text);
+  OddBytes odd;
+  const std::string utf8 = to_utf8(text, &odd);
   if (utf8.find_first_not_of(" \t\r\n") == std::string::npos) {
     return make_error(Code::truncated, "the script is empty; align or type at least one phone");
   }
@@ -106,6 +107,7 @@ Result<Timings> read_timings(std::string_view text, const ScriptOptions& options
   if (!format) return format.error();
   auto timings = (*format)->read(utf8, options);
   if (!timings) return timings.error();
+  note_odd_bytes(timings->notes, odd);
   timings->format = (*format)->shown.name;
   if (options.alphabet != Alphabet::automatic) timings->alphabet = options.alphabet;
   if (auto done = finish_labels(*timings, options, (*format)->unit); !done) return done.error();

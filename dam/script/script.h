@@ -24,7 +24,7 @@
 ///   (.csv); Rhubarb Lip Sync (.tsv, .xml), Moho (.dat) and Papagayo (.pgo), whose mouths become
 ///   phones; SubRip, WebVTT, SubViewer, TTML, ASS; lyrics (.lrc).
 ///
-/// Text is UTF-8, UTF-16 with or without a byte order mark, or else Latin-1. JSON (Montreal
+/// Text is UTF-8, UTF-16 with or without a byte order mark, or else Windows-1252. JSON (Montreal
 /// aligner, Gentle, WhisperX, speech services) is read by tools/formats/scripts/script_text.h.
 ///
 /// Source: dam/script/phoneme_scripts.md, sections 1 and 3.
@@ -120,6 +120,7 @@ struct ScriptNote {
     long_labels,   ///< words last so long that their times may be in another unit
     counts,        ///< a TextGrid holds more or less than it says
     given_times,   ///< words without times got some, between those of their neighbours
+    odd_bytes,     ///< bytes that are not UTF-8 in a text that is
   };
   Kind kind = Kind::marks;  ///< what was done
   std::string message;      ///< one sentence without a full stop, about the first of them

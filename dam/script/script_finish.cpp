@@ -224,6 +224,10 @@ void note_mark(std::vector<ScriptNote>& notes, std::string_view mark, std::int64
            line);
 }
 
+void note_odd_bytes(std::vector<ScriptNote>& notes, const OddBytes& odd) {
+  if (odd.count > 0) notes.push_back({NoteKind::odd_bytes, odd.describe(), 1, odd.line});
+}
+
 Result<void> finish_labels(Timings& timings, const ScriptOptions& options, TimeUnit unit) {
   if (auto kept = keep_speaker(timings.labels, options.speaker); !kept) return kept.error();
   if (options.rate > 0 && unit == TimeUnit::assumed) {

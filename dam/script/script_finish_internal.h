@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "dam/script/script_text_internal.h"
 #include "dam/script/timings.h"
 
 namespace animeme::dam {
@@ -15,6 +16,9 @@ void add_note(std::vector<ScriptNote>& notes, ScriptNote::Kind kind, std::string
 
 /// The note about a mark.
 void note_mark(std::vector<ScriptNote>& notes, std::string_view mark, std::int64_t line);
+
+/// The note about bytes that are not UTF-8, if there are any.
+void note_odd_bytes(std::vector<ScriptNote>& notes, const OddBytes& odd);
 
 /// What a format says about its times.
 enum class TimeUnit : std::uint8_t {

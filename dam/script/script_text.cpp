@@ -7,6 +7,12 @@ namespace {
 
 constexpr char32_t kReplacement = 0xFFFD;
 
+// Windows-1252 where it differs from Latin-1; 0: no character.
+constexpr char16_t kWindows[32] = {0x20AC, 0,      0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021,
+                                   0x02C6, 0x2030, 0x0160, 0x2039, 0x0152, 0,      0x017D, 0,
+                                   0,      0x2018, 0x2019, 0x201C, 0x201D, 0x2022, 0x2013, 0x2014,
+                                   0x02DC, 0x2122, 0x0161, 0x203A, 0x0153, 0,      0x017E, 0x0178};
+
 bool is_surrogate(char32_t code) { return code >= 0xD800 && code <= 0xDFFF; }
 
 std::string from_utf16(std::string_view bytes, bool big_endian) {
@@ -30,13 +36,36 @@ std::string from_utf16(std::string_view bytes, bool big_endian) {
   return out;
 }
 
-bool is_utf8(std::string_view bytes) {
+// What a byte in the middle of UTF-8 was meant to be. Texts that were put together from several
+// files have letters and quotation marks of Windows-1252; all others are remains of characters that
+// were cut (C2, C3 and E2 begin the usual ones) or damage.
+char32_t meaning_of_odd(char c) {
+  const auto byte = static_cast<unsigned char>(c);
+  const bool quotes = byte >= 0x91 && byte <= 0x97;
+  const bool letter = byte >= 0xC0 && byte < 0xFE && byte != 0xC2 && byte != 0xC3 && byte != 0xE2;
+  return quotes || letter ? from_windows(c) : kReplacement;
+}
+
+// The characters of a text in UTF-8, and how many of them are more than a byte long.
+std::string read_utf8(std::string_view bytes, OddBytes& odd, std::size_t& long_characters) {
+  std::string out;
+  out.reserve(bytes.size());
+  std::int64_t line = 1;
   while (!bytes.empty()) {
     const std::string_view before = bytes;
-    const bool replaced = take_code_point(bytes) == kReplacement;
-    if (replaced && !before.starts_with("\xEF\xBF\xBD")) return false;
+    const char32_t code = take_code_point(bytes);
+    const std::size_t taken = before.size() - bytes.size();
+    if (code == kReplacement && !before.starts_with("\xEF\xBF\xBD")) {
+      for (const char c : before.substr(0, taken)) append_utf8(out, meaning_of_odd(c));
+      odd.count += taken;
+      if (odd.line == 0) odd.line = line;
+      continue;
+    }
+    line += code == U'\n' ? 1 : 0;
+    long_characters += taken > 1 ? 1 : 0;
+    out.append(before.substr(0, taken));
   }
-  return true;
+  return out;
 }
 
 }  // namespace
@@ -86,17 +115,33 @@ char32_t take_code_point(std::string_view& text) {
   return code < kLeast[length] || code > 0x10FFFF || is_surrogate(code) ? kReplacement : code;
 }
 
-std::string to_utf8(std::string_view bytes) {
+char32_t from_windows(char c) {
+  const auto byte = static_cast<unsigned char>(c);
+  if (byte < 0x80 || byte >= 0xA0) return byte;
+  return kWindows[byte - 0x80] == 0 ? kReplacement : char32_t(kWindows[byte - 0x80]);
+}
+
+std::string OddBytes::describe() const {
+  return (count == 1 ? "1 byte is" : std::to_string(count) + " bytes are") +
+         std::string(" not UTF-8; read as Windows-1252 where that gives a letter, else as U+FFFD");
+}
+
+std::string to_utf8(std::string_view bytes, OddBytes* odd) {
   if (bytes.starts_with("\xFF\xFE")) return from_utf16(bytes.substr(2), false);
   if (bytes.starts_with("\xFE\xFF")) return from_utf16(bytes.substr(2), true);
   if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
   // In a few bytes a zero is a fault.
   const auto big_endian = fap::detail::unmarked_utf16(bytes);
   if (big_endian && bytes.size() >= 8) return from_utf16(bytes, *big_endian);
-  if (is_utf8(bytes)) return std::string(bytes);
-  std::string out;
-  out.reserve(bytes.size() * 2);
-  for (const char c : bytes) append_utf8(out, char32_t(static_cast<unsigned char>(c)));
+  OddBytes found;
+  std::size_t long_characters = 0;
+  std::string out = read_utf8(bytes, found, long_characters);
+  if (found.count == 0 || long_characters > 0) {
+    if (odd != nullptr) *odd = found;
+    return out;
+  }
+  out.clear();
+  for (const char c : bytes) append_utf8(out, from_windows(c));
   return out;
 }
 

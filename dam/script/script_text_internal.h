@@ -10,9 +10,24 @@
 
 namespace animeme::dam {
 
+/// Bytes that are not what the rest of their text is.
+struct OddBytes {
+  std::size_t count = 0;  ///< how many of them there are
+  std::int64_t line = 0;  ///< of the first one, from 1; 0: there is none
+
+  /// "3 bytes are not UTF-8; read as Windows-1252 where that gives a letter, else as U+FFFD".
+  std::string describe() const;
+};
+
 /// UTF-8 without byte order mark. Input: UTF-8 or UTF-16 of either byte order, both with or without
-/// mark; a text that is none of these is Latin-1. What is no UTF-16 becomes U+FFFD.
-std::string to_utf8(std::string_view bytes);
+/// mark. Text that is neither is Windows-1252 (Latin-1 with quotation marks and dashes). A text
+/// with at least one character of several bytes in UTF-8 stays UTF-8: each byte that does not
+/// belong there is taken for a letter or quotation mark of Windows-1252, or becomes U+FFFD, and is
+/// counted in `odd`. What is no UTF-16 becomes U+FFFD.
+std::string to_utf8(std::string_view bytes, OddBytes* odd = nullptr);
+
+/// A byte as a character of Windows-1252; U+FFFD: it is none.
+char32_t from_windows(char byte);
 
 /// Appends one code point as UTF-8.
 void append_utf8(std::string& out, char32_t code);

@@ -97,6 +97,22 @@ TEST(Marks, LeaveATextAsItIs) {
   EXPECT_EQ(two.mark, "(coughs)");
 }
 
+TEST(OddBytes, CostNoMoreThanThemselves) {
+  const std::string rows = "start_s\tend_s\tword\n0\t0.5\tZ\xC3\xBCrich\n0.5\t1\tK\xF6ln\n";
+  EXPECT_EQ(read(rows), "<Zürich> <Köln>");
+  const auto told = notes(rows);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].kind, dam::ScriptNote::Kind::odd_bytes);
+  EXPECT_EQ(told[0].describe(),
+            "line 3: 1 byte is not UTF-8; read as Windows-1252 where that gives a letter, else as "
+            "U+FFFD");
+  const std::string json = R"([{"word": "Zürich", "start": 0, "end": 1},)"
+                           "\n{\"word\": \"K\xF6ln\", \"start\": 1, \"end\": 2}]";
+  EXPECT_EQ(read(json), "<Zürich> <Köln>");
+  ASSERT_EQ(notes(json).size(), 1u);
+  EXPECT_EQ(notes(json)[0].line, 2);
+}
+
 TEST(Marks, OfRecognisersAreSilence) {
   const std::string ctm =
       "take 1 0.00 0.30 [noise]\ntake 1 0.30 0.35 bob\ntake 1 0.65 0.30 my\n"

@@ -76,6 +76,16 @@ TEST_F(Lines, AreSpokenAsTheyComeInTheirOrder) {
   EXPECT_TRUE(lines->ended());
 }
 
+TEST_F(Lines, MarksAreNotSaid) {
+  type("[laughs] Hi Bob.\nHi Bob.\n");
+  const auto all = take(2);
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[0].text, "[laughs] Hi Bob.");
+  EXPECT_EQ(all[0].speech.script, all[1].speech.script);
+  EXPECT_EQ(all[0].doubt, "the mark \"[laughs]\" is not said (--speak-marks says such marks)");
+  EXPECT_EQ(all[1].doubt, "");
+}
+
 TEST_F(Lines, WhatCannotBeSpokenIsTold) {
   type("...\nYes.\n");
   close_input();

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "tests/support/files.h"
+#include "tools/speech/talking/written_text.h"
 
 namespace animeme::speech {
 namespace spoken_test {
@@ -48,6 +49,43 @@ TEST(GetSpoken, MarksOfATextAreNotSaid) {
   const auto all = get_spoken(options, log);
   ASSERT_TRUE(all);
   EXPECT_GT(all->script.phones.size(), plain->script.phones.size() + 8);
+}
+
+TEST(TextToSay, AnOddByteCostsItself) {
+  std::vector<std::string> warnings;
+  tools::Log log;
+  log.warn = [&](const std::string& warning) { warnings.push_back(warning); };
+  const auto say = [&](std::string_view bytes) { return text_to_say(bytes, false, log); };
+  // A text in UTF-8 stays one.
+  EXPECT_EQ(say("Z\xC3\xBCrich.\nK\xF6ln, it\x92s \x80 far"), "Zürich.\nKöln, it’s \uFFFD far");
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0],
+            "line 2: 3 bytes are not UTF-8; read as Windows-1252 where that gives a letter, else "
+            "as U+FFFD");
+  // A character that was cut, damage.
+  EXPECT_EQ(say("Z\xC3\xBCrich und K\xC3"), "Zürich und K\uFFFD");
+  EXPECT_EQ(say("Z\xC3\xBCrich \xFF\xFE und"), "Zürich \uFFFD\uFFFD und");
+  EXPECT_EQ(warnings.size(), 3u);
+  // A text that is not UTF-8 anywhere is of Windows as a whole, which is no fault.
+  EXPECT_EQ(say("\x93Z\xFCrich\x94 isn\x92t K\xF6ln"), "“Zürich” isn’t Köln");
+  // What another program has lost already.
+  EXPECT_EQ(say("I don\uFFFDt \uFFFD know\uFFFD"), "I don’t \uFFFD know\uFFFD");
+  EXPECT_EQ(warnings.size(), 3u);
+}
+
+TEST(TextToSay, MarksOfAnyLanguageAreNotSaid) {
+  const auto say = [](std::string_view text) { return text_to_say(text, false); };
+  EXPECT_EQ(say("[lacht] Das ist gut. [zwinkert] Ja!"), "Das ist gut. Ja!");
+  EXPECT_EQ(say("Ja, *lacht* das (seufzt) ist gut. [Tür knallt]"), "Ja, das ist gut. ");
+  EXPECT_EQ(say("[笑] 你好。[音乐]"), "你好。");
+  EXPECT_EQ(say("[Applaudissements]\nMerci !"), "\nMerci !");
+  // These are said.
+  for (const char* text : {"[He] came, and [she] went. See [1].", "Press [Enter] to go on.",
+                           "[H]e came.", "[The page](http://a.b) is there.", "She has [a] car",
+                           "(Kichererbsen) und *nie* [oder so]!", "[wir] kamen"}) {
+    EXPECT_EQ(say(text), text);
+  }
+  EXPECT_EQ(text_to_say("[lacht] Ja", true), "[lacht] Ja");
 }
 
 }  // namespace spoken_test

@@ -11,6 +11,7 @@
 #include "tools/formats/files/files.h"
 #include "tools/formats/files/output_file.h"
 #include "tools/speech/talking/spoken.h"
+#include "tools/speech/talking/written_text.h"
 
 namespace animeme::tools {
 
@@ -82,7 +83,7 @@ void print_json(const voice::Alignment& alignment, bool heard) {
 // Of the text that there is.
 Result<voice::Alignment> align_to_text(const AlignOptions& options) {
   std::string transcript =
-      speech::without_marks(options.transcript, options.reading.speak_marks, terminal_log());
+      speech::text_to_say(options.transcript, options.reading.speak_marks, terminal_log());
   if (!options.script.empty()) {
     auto words = speech::words_of_file(options.script, options.reading);
     if (!words) return words.error();

@@ -152,11 +152,14 @@ Result<dam::Timings> read_labels(std::string_view text, const dam::ScriptOptions
                                                     "; these are:" + names);
     }
   }
-  const std::string utf8 = dam::to_utf8(text);
+  dam::OddBytes odd;
+  const std::string utf8 = dam::to_utf8(text, &odd);
   const std::size_t first = utf8.find_first_not_of(" \t\r\n");
   if (!may_be_json(std::string_view(utf8).substr(std::min(first, utf8.size()))))
-    return dam::read_timings(utf8, options);
-  return read_json(utf8, options);
+    return dam::read_timings(text, options);
+  auto timings = read_json(utf8, options);
+  if (timings) dam::note_odd_bytes(timings->notes, odd);
+  return timings;
 }
 
 }  // namespace animeme::scripts

@@ -31,7 +31,9 @@ Result<std::unique_ptr<HeadServer>> HeadServer::open(
   voice::keep_voices();  // one thread speaks: that of the voices
   try {
     server->voices_ =
-        std::make_unique<Voices>(options.voices ? options.voices : speech::voice_lines);
+        std::make_unique<Voices>(options.voices ? options.voices : [](const auto& voice) {
+          return speech::voice_lines(voice);
+        });
     server->loop_ =
         std::make_unique<ClockLoop>(media::steady_clock(), LoopOptions{threads_of(options)});
     // Processes of voices begin as copies of this one: the first one while it is small.

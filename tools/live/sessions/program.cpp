@@ -40,7 +40,7 @@ Result<speech::LineMaker> maker_of(const ProgramOptions& options) {
     return speech::piece_lines(voice_of(spoken), {spoken.script_reading, spoken.language});
   }
   if (!spoken.tts.empty()) return speech::command_lines(speech::voice_command(spoken));
-  return speech::voice_lines(voice_of(spoken));
+  return speech::voice_lines(voice_of(spoken), spoken.script_reading.speak_marks);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "tools/speech/talking/control_socket.h"
 #include "tools/speech/talking/line_cutter_internal.h"
 #include "tools/speech/talking/line_queue.h"
+#include "tools/speech/talking/written_text.h"
 
 namespace animeme::speech {
 
@@ -110,19 +111,22 @@ VoiceLines::VoiceLines(std::unique_ptr<Impl> impl, int sample_rate)
 
 VoiceLines::~VoiceLines() = default;
 
-Result<LineMaker> voice_lines(const voice::VoiceOptions& options) {
+Result<LineMaker> voice_lines(const voice::VoiceOptions& options, bool speak_marks) {
   const Result<voice::Speech> probe = voice::speak_text("1", options);
   if (!probe) return probe.error();
   LineMaker maker;
   maker.sample_rate = probe->audio.sample_rate;
-  maker.make = [options](std::string line, const Wanted&) -> Result<SpokenLine> {
-    Result<voice::Speech> speech = voice::speak_text(line, options);
-    if (!speech) return speech.error();
+  maker.make = [options, speak_marks](std::string line, const Wanted&) -> Result<SpokenLine> {
     SpokenLine spoken;
-    spoken.text = std::move(line);
-    for (const std::string& warning : speech->warnings) {
+    const auto doubt = [&spoken](const std::string& warning) {
       spoken.doubt += (spoken.doubt.empty() ? "" : "; ") + warning;
-    }
+    };
+    tools::Log log;
+    log.warn = doubt;
+    Result<voice::Speech> speech = voice::speak_text(text_to_say(line, speak_marks, log), options);
+    if (!speech) return speech.error();
+    spoken.text = std::move(line);
+    for (const std::string& warning : speech->warnings) doubt(warning);
     spoken.speech = std::move(*speech);
     return spoken;
   };

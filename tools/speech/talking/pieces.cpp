@@ -11,6 +11,7 @@
 #include "tools/formats/media/audio.h"
 #include "tools/formats/scripts/script_text.h"
 #include "tools/speech/talking/json_line_internal.h"
+#include "tools/speech/talking/written_text.h"
 
 namespace animeme::speech {
 
@@ -161,9 +162,14 @@ Result<SpokenLine> read_piece(std::string_view json, const voice::VoiceOptions& 
   SpokenLine line;
   line.joins = true;
   line.text = *text;
+  tools::Log log;
+  log.warn = [&line](const std::string& warning) {
+    line.doubt += (line.doubt.empty() ? "" : "; ") + warning;
+  };
+  *text = text_to_say(*text, input.reading.speak_marks, log);
   if (found && !text->empty()) {
     if (const auto timings = scripts::read_labels(sound.labels); !timings) {
-      line.doubt = "its members are not timings (" + timings.error().message + ")";
+      log.warn("its members are not timings (" + timings.error().message + ")");
       sound.labels.clear();
     }
   }
@@ -177,10 +183,6 @@ Result<SpokenLine> read_piece(std::string_view json, const voice::VoiceOptions& 
   }
   sound.text = std::move(*text);
   sound.audio = std::move(*audio);
-  tools::Log log;
-  log.warn = [&line](const std::string& warning) {
-    line.doubt += (line.doubt.empty() ? "" : "; ") + warning;
-  };
   Result<TimedSpeech> timed = time_sound(std::move(sound), reading, log);
   if (!timed) {
     Error error = timed.error();

@@ -3,13 +3,12 @@
 #include <utility>
 
 #include "dam/model/builtin.h"
-#include "dam/script/marks.h"
 #include "dam/speaking/readings.h"
 #include "tools/formats/files/cost.h"
 #include "tools/formats/files/file_cache.h"
 #include "tools/formats/files/files.h"
 #include "tools/formats/scripts/script_text.h"
-#include "tools/speech/text/ssml.h"
+#include "tools/speech/talking/written_text.h"
 
 namespace animeme::speech {
 
@@ -18,7 +17,7 @@ namespace {
 Result<Spoken> speak(const SpokenOptions& options, const std::string& written,
                      const tools::Log& log) {
   tools::AtStep step(tools::Step::voice);
-  const std::string text = without_marks(written, options.script_reading.speak_marks, log);
+  const std::string text = text_to_say(written, options.script_reading.speak_marks, log);
   if (!options.tts.empty()) {
     Result<TimedSpeech> timed = run_voice_command(text, voice_command(options), log);
     if (!timed) return timed.error();
@@ -65,7 +64,7 @@ Result<Spoken> align_voice(const SpokenOptions& options, const tools::Log& log) 
   voice::AlignOptions settings;
   settings.language = options.language;
   Result<voice::Alignment> aligned = align_file(
-      options.audio, without_marks(options.transcript, options.script_reading.speak_marks, log),
+      options.audio, text_to_say(options.transcript, options.script_reading.speak_marks, log),
       settings, log);
   if (!aligned) return aligned.error();
   Result<media::Pcm> audio = read_voice(options.audio, log);
@@ -88,15 +87,6 @@ Result<Spoken> hear_voice(const SpokenOptions& options, const tools::Log& log) {
 }
 
 }  // namespace
-
-std::string without_marks(const std::string& text, bool speak_marks, const tools::Log& log) {
-  if (speak_marks || text::is_ssml(text)) return text;
-  dam::Unmarked unmarked = dam::without_marks(text, dam::MarksOf::prose);
-  if (unmarked.count == 0) return text;
-  log.warn("the mark \"" + unmarked.mark + "\" is not said (--speak-marks says such marks)" +
-           (unmarked.count > 1 ? " (" + std::to_string(unmarked.count) + " in all)" : ""));
-  return std::move(unmarked.text);
-}
 
 VoiceCommand voice_command(const SpokenOptions& options) {
   return {options.tts, {options.script_reading, options.language, options.most_seconds}};

@@ -86,10 +86,6 @@ Result<dam::Signal> move_face(const dam::Model& model, const Spoken& spoken,
                               const dam::SynthesisOptions& options,
                               dam::SynthesisReport* report = nullptr);
 
-/// A text or transcript without marks that name a sound, "(laughs)", as dam::without_marks() finds
-/// them in prose, with a warning to log.warn. SSML, and any text with `speak_marks`, is unchanged.
-std::string without_marks(const std::string& text, bool speak_marks, const tools::Log& log = {});
-
 /// The words of a script of any format, in order, separated by blanks. Errors: those of reading it,
 /// not_found (it has phones only).
 Result<std::string> words_of_file(const std::string& path, const dam::ScriptOptions& reading);
