@@ -110,13 +110,14 @@ Usual usual_of(std::span<const Utterance* const> sentences, const SpeechMasks& s
   return usual;
 }
 
-struct Run {
+struct FaultyRun {
   GlitchKind kind;
   std::size_t first, last;  // last: behind it
 };
 
-std::vector<Run> runs_of(const Channel& channel, const Usual& usual, const ControlLimit& limit) {
-  std::vector<Run> runs;
+std::vector<FaultyRun> runs_of(const Channel& channel, const Usual& usual,
+                               const ControlLimit& limit) {
+  std::vector<FaultyRun> runs;
   if (usual.span <= 0) return runs;
   const auto possible = [&](std::size_t i) {  // by nature
     return !limit.free() && channel[i] >= limit.low && channel[i] <= limit.high;
@@ -145,7 +146,7 @@ std::vector<Run> runs_of(const Channel& channel, const Usual& usual, const Contr
   const auto odd = [&](std::size_t i) {
     return channel.measured(i) && std::abs(channel[i] - usual.middle) > usual.span;
   };
-  for (Run& run : runs) {
+  for (FaultyRun& run : runs) {
     if (run.kind != GlitchKind::jump) continue;
     for (std::size_t n = 0; n < kApart && run.first > 0 && odd(run.first - 1); ++n) --run.first;
     for (std::size_t n = 0; n < kApart && run.last < channel.frames() && odd(run.last); ++n)
@@ -161,7 +162,8 @@ std::vector<Run> runs_of(const Channel& channel, const Usual& usual, const Contr
     if (j - i >= least && !habit) runs.push_back({GlitchKind::stuck, i, j});
     i = std::max(j, i + 1);
   }
-  std::sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.first < b.first; });
+  std::sort(runs.begin(), runs.end(),
+            [](const FaultyRun& a, const FaultyRun& b) { return a.first < b.first; });
   return runs;
 }
 
@@ -230,18 +232,18 @@ CleanedSentences remove_glitches(std::span<const Utterance* const> sentences,
   std::vector<std::vector<Glitch>> found(sentences.size());
   for (std::size_t c = 0; c < names.size(); ++c) {
     const Usual usual = usual_of(sentences, speech, c);
-    std::vector<std::vector<Run>> runs;
+    std::vector<std::vector<FaultyRun>> runs;
     double frames = 0, bad = 0;
     for (std::size_t s = 0; s < sentences.size(); ++s) {
       runs.push_back(runs_of({sentences[s]->signal, c, speech[s]}, usual, limits[c]));
       frames += double(sentences[s]->signal.frames());
-      for (const Run& run : runs.back()) bad += double(run.last - run.first);
+      for (const FaultyRun& run : runs.back()) bad += double(run.last - run.first);
     }
     const double nonsense = kNonsense * sentences[0]->signal.rate.frames_per_second();
     if (bad > std::max(nonsense, kTooMany * frames)) continue;
     for (std::size_t s = 0; s < sentences.size(); ++s) {
       const Signal& signal = sentences[s]->signal;
-      for (const Run& run : runs[s])
+      for (const FaultyRun& run : runs[s])
         found[s].push_back({sentences[s]->id, names[c], run.kind, run.first, run.last - run.first,
                             signal.time(run.first),
                             short_glitches == ShortGlitches::interpolate &&

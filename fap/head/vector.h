@@ -37,38 +37,38 @@ using Vec3d = Vector<double>;  ///< during the construction of a head
 
 /// Inner product.
 template <class T>
-T dot(Vector<T> a, Vector<T> b) {
+inline T dot(Vector<T> a, Vector<T> b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
 /// Cross product, right-handed.
 template <class T>
-Vector<T> cross(Vector<T> a, Vector<T> b) {
+inline Vector<T> cross(Vector<T> a, Vector<T> b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
 /// Euclidean length.
 template <class T>
-T length(Vector<T> a) {
+inline T length(Vector<T> a) {
   return std::sqrt(dot(a, a));
 }
 
 /// Length 1; the zero vector stays.
 template <class T>
-Vector<T> normalised(Vector<T> a) {
+inline Vector<T> normalised(Vector<T> a) {
   const T l = length(a);
   return l > 0 ? a * (T(1) / l) : a;
 }
 
 /// `a` at t = 0, `b` at t = 1.
 template <class T>
-Vector<T> mix(Vector<T> a, Vector<T> b, T t) {
+inline Vector<T> mix(Vector<T> a, Vector<T> b, T t) {
   return a + (b - a) * t;
 }
 
 /// 0 up to `a`, 1 from `b` on, smooth between. a < b or a > b.
 template <class T>
-T smooth_step(T a, T b, T x) {
+inline T smooth_step(T a, T b, T x) {
   const T t = std::clamp((x - a) / (b - a), T(0), T(1));
   return t * t * (T(3) - T(2) * t);
 }
