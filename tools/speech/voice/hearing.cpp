@@ -103,7 +103,6 @@ Cepstrum mean_of_speech(std::span<const Cepstrum> frames, std::span<const std::u
   }
   if (count < kFewOfSpeech)
     return mean_above(frames, level_of_loudest(levels, kLoudShare * double(levels.size())));
-  static const double f = getenv("FACT") ? atof(getenv("FACT")) : 1.2;
   return mean_above(frames, level_of_loudest(levels, std::min(kSpeechAndEdges * double(count),
                                                               kMostOfAll * double(levels.size()))));
 }
