@@ -21,7 +21,7 @@ constexpr std::array<Articulator, 69> by_fap() {
 constexpr auto kByFap = by_fap();
 
 /// The first that a name begins with.
-constexpr std::pair<std::string_view, Articulator> kShapes[] = {
+constexpr std::pair<std::string_view, Articulator> kControlShapes[] = {
     {"jaw", Articulator::jaw},
     {"mouthStretch", Articulator::width},
     {"mouthDimple", Articulator::width},
@@ -35,7 +35,7 @@ constexpr std::pair<std::string_view, Articulator> kShapes[] = {
 
 Articulator articulator_of(std::string_view control) {
   if (const int fap = fap_of_channel(control); fap > 0) return kByFap[std::size_t(fap)];
-  for (const auto& [begin, articulator] : kShapes)
+  for (const auto& [begin, articulator] : kControlShapes)
     if (control.starts_with(begin)) return articulator;
   return Articulator::other;
 }
