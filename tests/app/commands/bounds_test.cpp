@@ -76,6 +76,7 @@ TEST(Bounds, NumbersAreNoTexts) {
   for (const std::string& command : test::all_commands()) {
     for (const HelpLine& line : test::help_of(command).lines) {
       if (!numbers.contains(line.name)) continue;
+      if (line.value == "OUT") continue;  // phones --sheet, a file
       seen.insert(line.name);
       EXPECT_FALSE(takes_any_text(line)) << command << " " << line.name << " " << line.value;
     }

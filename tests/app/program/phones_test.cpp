@@ -44,6 +44,43 @@ TEST(PhonesCommand, AnUnknownLanguageIsAnError) {
   EXPECT_EQ(animeme({"phones", "--lang", "de", "--all-languages"}).exit_code, 2);
 }
 
+// Vowels of other languages, as the built-in model says them: round ones are narrower and further
+// forward than flat ones of the same height, an open one has a wider gap than u.
+TEST(PhonesCommand, DrawsTheVowelsOfTheChart) {
+  const TempDir dir;
+  const auto sheet = dir / "vowels.svg";
+  const auto made = animeme({"phones", "--sheet", sheet, "--json"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const Json vowels = Json::parse(made.out)["vowels"];
+  ASSERT_EQ(vowels.size(), 29u);
+  const auto of = [&](const char* ipa) {
+    return *std::find_if(vowels.begin(), vowels.end(),
+                         [&](const Json& vowel) { return vowel["ipa"] == ipa; });
+  };
+  EXPECT_EQ(of("")["name"], "rest");
+  EXPECT_LT(of("")["gap"].get<double>(), 25);
+  for (const auto& [round, flat] :
+       {std::pair{"y", "i"}, std::pair{"u", "ɯ"}, std::pair{"ø", "e"}, std::pair{"ʉ", "ɨ"}}) {
+    EXPECT_LT(of(round)["width"].get<double>(), of(flat)["width"].get<double>()) << round;
+    EXPECT_GT(of(round)["forward"].get<double>(), of(flat)["forward"].get<double>()) << round;
+  }
+  EXPECT_GT(of("ɑ")["gap"].get<double>(), 1.3 * of("u")["gap"].get<double>());
+  std::ifstream file(sheet);
+  const std::string svg((std::istreambuf_iterator<char>(file)), {});
+  std::size_t pictures = 0;
+  for (auto at = svg.find("<image"); at != std::string::npos; at = svg.find("<image", at + 1))
+    ++pictures;
+  EXPECT_EQ(pictures, 29u);
+  for (const char* ipa : {">y  ", ">ø  ", ">ɯ  ", ">rest<"}) EXPECT_THAT(svg, HasSubstr(ipa));
+}
+
+TEST(PhonesCommand, ASheetIsAPictureAndHasNoLanguage) {
+  EXPECT_EQ(animeme({"phones", "--sheet", "a.txt"}).exit_code, 2);
+  EXPECT_EQ(animeme({"phones", "--sheet", "a.png", "--lang", "de"}).exit_code, 2);
+  EXPECT_EQ(animeme({"phones", "--model", "a.dam"}).exit_code, 2);
+  EXPECT_EQ(animeme({"phones", "--sheet", "a.png", "--model", "missing.dam"}).exit_code, 3);
+}
+
 TEST(PhonesCommand, WhatAModelLacksIsSaidWhenAsked) {
   const TempDir dir;
   const auto script = dir / "hello.tsv";

@@ -2,10 +2,14 @@
 #include <cstdio>
 
 #include "tools/app/commands/common.h"
+#include "tools/app/commands/head_options.h"
 #include "tools/formats/common/json.h"
 #include "tools/formats/common/text.h"
+#include "tools/speech/talking/spoken.h"
 #include "tools/speech/voice/letters.h"
 #include "tools/speech/voice/symbols.h"
+#include "tools/view/plot/curves.h"
+#include "tools/view/studio/vowel_chart.h"
 
 namespace animeme::tools {
 
@@ -15,6 +19,9 @@ struct PhonesOptions {
   std::string language = "en";
   bool all = false;
   bool json = false;
+  std::string sheet;  // empty: none
+  std::string model;  // empty: the built-in one
+  studio::HeadChoice head;
 };
 
 std::string_view match_name(const voice::VoiceSymbol& symbol) {
@@ -166,7 +173,42 @@ Result<int> run_all(const PhonesOptions& options) {
   return kOk;
 }
 
+constexpr int kPictureSize = 150;
+
+// The vowels of the chart: a sheet of pictures, and their figures as a table or as JSON.
+Result<int> run_sheet(const PhonesOptions& options) {
+  const auto model = speech::read_model(options.model);
+  if (!model) return model.error();
+  const auto vowels = studio::chart_vowels(*model);
+  if (!vowels) return vowels.error();
+  const studio::HeadLook look{
+      .head = options.head, .zoom = 2.4, .width = kPictureSize, .height = kPictureSize};
+  const auto svg = studio::vowel_chart_svg(look, *vowels, terminal_log());
+  if (!svg) return svg.error();
+  const auto file = plot::drawing_bytes(options.sheet, *svg);
+  if (!file) return file.error();
+  if (auto written = write_file(options.sheet, *file); !written) return written.error();
+  Json list = Json::array();
+  for (const studio::ChartVowel& vowel : *vowels) {
+    if (options.json) {
+      list.push_back({{"ipa", vowel.ipa},
+                      {"name", vowel.name},
+                      {"phones", vowel.phones},
+                      {"gap", vowel.gap},
+                      {"width", vowel.width},
+                      {"forward", vowel.forward}});
+    } else {
+      std::printf("%s %s gap %4.0f  width %+4.0f  forward %4.0f  %s\n",
+                  padded(vowel.ipa, 2).c_str(), padded(vowel.phones, 6).c_str(), vowel.gap,
+                  vowel.width, vowel.forward, vowel.name.c_str());
+    }
+  }
+  if (options.json) print({{"vowels", list}});
+  return kOk;
+}
+
 Result<int> run(const PhonesOptions& options) {
+  if (!options.sheet.empty()) return run_sheet(options);
   return options.all ? run_all(options) : run_one(options);
 }
 
@@ -179,6 +221,15 @@ void add_options(OptionTable& cli, PhonesOptions& options) {
           "vowels are rounded, how many close unrounded ones (flat) are not; how many "
           "letters of its language it reads")
       ->excludes("--lang");
+  cli.add("--sheet", options.sheet,
+          "Draw the vowels of the IPA chart as a model speaks them, on a head, and print their "
+          "inner gap, width and protrusion in FAP units")
+      ->output(".png .svg")
+      ->excludes("--lang --all-languages");
+  cli.add("--model", options.model,
+          "Model file of a character for --sheet; default: the built-in model")
+      ->needs("--sheet");
+  add_head_options(cli, options.head);
   cli.add("--json", options.json, "Print a machine-readable table");
 }
 
@@ -188,7 +239,8 @@ const Command kPhones{
     "phones", "List the sounds of a voice: IPA, features, and the phones that are used for them",
     "  animeme phones --lang ru\n"
     "  animeme phones --lang sv --json\n"
-    "  animeme phones --all-languages",
+    "  animeme phones --all-languages\n"
+    "  animeme phones --sheet vowels.png --head man",
     set_up<PhonesOptions>};
 
 }  // namespace animeme::tools
