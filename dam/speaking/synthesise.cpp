@@ -78,13 +78,16 @@ ClosureOptions closure_options(const Model& model) {
 /// Phones that the model knows, in time order, with pauses cut and drawn-out sounds held.
 std::vector<Occurrence> timeline_of(const Model& model, const Script& spoken) {
   auto timeline = make_timeline(spoken, model.pause_edge);
-  // A model may lack silence only if it was made by hand; the mouth then rests in pauses.
+  // A model may lack silence only if it was made by hand; the mouth then rests in pauses. The
+  // script has no other unknown phones.
   const auto unknown = [&](const std::string& label) { return model.find_phone(label) < 0; };
-  std::erase_if(timeline, [&](const Occurrence& o) { return unknown(o.label); });
-  // The neighbours of such a pause are now next to the resting mouth, which is no phone.
-  for (Occurrence& o : timeline) {
-    if (unknown(o.left)) o.left.clear();
-    if (unknown(o.right)) o.right.clear();
+  if (unknown(std::string(kSilence))) {
+    std::erase_if(timeline, [&](const Occurrence& o) { return unknown(o.label); });
+    // The neighbours of such a pause are now next to the resting mouth, which is no phone.
+    for (Occurrence& o : timeline) {
+      if (unknown(o.left)) o.left.clear();
+      if (unknown(o.right)) o.right.clear();
+    }
   }
   hold_drawn_out(timeline, [&](const std::string& label) {
     return model.phones[std::size_t(model.find_phone(label))].longest;
