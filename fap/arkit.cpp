@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "fap/arkit_internal.h"
 #include "fap/detail/symmetry.h"
@@ -45,7 +46,7 @@ namespace {
 using internal::ArkitWeight;
 
 constexpr int kLidsMeet = 1024;  // FAP 19 + 21: IRISD is the opening of the lids
-constexpr std::size_t kLongestName = 32;
+constexpr std::size_t kLongestName = 200;
 constexpr std::size_t kFirstEyeball = 23, kLastEyeball = 26;
 
 std::array<std::string, kArkitChannelCount> lower_case_names() {
@@ -54,11 +55,31 @@ std::array<std::string, kArkitChannelCount> lower_case_names() {
   return names;
 }
 
-std::string normal_name(std::string_view name) {
-  std::string out = detail::lower_case(name);
-  if (out.ends_with("_l")) return out.replace(out.size() - 2, 2, "left");
-  if (out.ends_with("_r")) return out.replace(out.size() - 2, 2, "right");
-  return out;
+// Letters and digits in lower case, with the side spelled out: "Eye_Blink_L" is "eyeblinkleft".
+std::string plain_name(std::string_view name) {
+  std::string lower = detail::lower_case(name);
+  for (const auto& [ending, side] : {std::pair("l", "left"), {"r", "right"}}) {
+    const std::size_t n = lower.size();
+    if (n > 2 && lower.ends_with(ending) &&
+        std::string_view("_. -").find(lower[n - 2]) != std::string_view::npos) {
+      lower.replace(n - 2, 2, side);
+      break;
+    }
+  }
+  std::erase_if(lower, [](char c) { return c == '_' || c == '.' || c == ' ' || c == '-'; });
+  return lower;
+}
+
+// The places in a name where the name of a shape may begin: after what programs put before it
+// ("blendShapes.JawOpen", "head_lod0_mesh__jawOpen").
+std::vector<std::size_t> beginnings_of(std::string_view name) {
+  std::vector<std::size_t> at = {0};
+  for (std::size_t i = 0; i + 1 < name.size(); ++i) {
+    const bool twice = i > 0 && name[i] == '_' && name[i - 1] == '_';
+    if (twice || std::string_view(".:|/").find(name[i]) != std::string_view::npos)
+      at.push_back(i + 1);
+  }
+  return at;
 }
 
 // The channel of the other side, "" if the shape has no sides.
@@ -113,9 +134,15 @@ const ArkitWeights& internal::arkit_weights() {
 std::optional<int> find_arkit(std::string_view name) {
   static const std::array<std::string, kArkitChannelCount> known = lower_case_names();
   if (name.size() > kLongestName) return std::nullopt;
-  const auto found = std::find(known.begin(), known.end(), normal_name(name));
-  if (found == known.end()) return std::nullopt;
-  return int(found - known.begin());
+  for (const std::size_t at : beginnings_of(name)) {
+    const std::string_view rest = name.substr(at);
+    const auto found = std::find(known.begin(), known.end(), plain_name(rest));
+    if (found == known.end()) continue;
+    const int channel = int(found - known.begin());
+    // "head_yaw" is a FAP.
+    if (channel < kArkitShapeCount || rest.size() == found->size()) return channel;
+  }
+  return std::nullopt;
 }
 
 Mask arkit_faps(const ArkitChannels& channels) {

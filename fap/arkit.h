@@ -37,8 +37,10 @@ inline constexpr int kArkitChannelCount = 61;  ///< with nine angles of head and
 /// leftEyeRoll and the same of the right eye.
 extern const std::array<std::string_view, kArkitChannelCount> kArkitNames;
 
-/// Channel (0..60) of a name; nullopt if unknown. Case is ignored ("EyeBlinkLeft"), and the
-/// suffixes _L and Left, _R and Right are equivalent ("eyeBlink_L").
+/// Channel (0..60) of a name; nullopt if unknown. Case is ignored, in names of shapes also "_", "-"
+/// and blanks ("EyeBlinkLeft", "jaw_open"), the suffixes _L and Left, _R and Right are equivalent
+/// ("eyeBlink_L"), and so is what programs put before ".", ":", "|", "/" or "__"
+/// ("blendShapes.JawOpen", "head_lod0_mesh__jawOpen").
 std::optional<int> find_arkit(std::string_view name);
 
 /// One instant, by channel: weights of shapes, 1 is the full shape (trackers exceed it slightly,

@@ -45,9 +45,10 @@ TEST(Arkit, NamesAreFoundInAnySpelling) {
   }
   EXPECT_EQ(find_arkit("eyeBlink_L"), find_arkit("eyeBlinkLeft"));
   EXPECT_EQ(find_arkit("MOUTHSMILE_R"), find_arkit("mouthSmileRight"));
+  EXPECT_EQ(find_arkit("jaw_open "), find_arkit("jawOpen"));
   EXPECT_EQ(find_arkit("tongueOut"), kArkitShapeCount - 1);
   EXPECT_EQ(find_arkit("headYaw"), kArkitShapeCount);
-  for (const char* name : {"", "_L", "jaw", "jawOpen ", "eyeBlink", "cheekRaiserLeft"}) {
+  for (const char* name : {"", "_L", "jaw", "openJaw", "eyeBlink", "cheekRaiserLeft"}) {
     EXPECT_FALSE(find_arkit(name)) << name;
   }
 }

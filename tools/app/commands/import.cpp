@@ -222,7 +222,8 @@ void add_options(OptionTable& cli, ImportOptions& options) {
           "Table (CSV) of ARKit blend shapes: from Live Link Face, or time_s and a column "
           "per shape; or of landmarks: from OpenFace, 68 points (x_0, y_0 or landmark_0_x "
           "...), 468 or 478 points of MediaPipe, a part of them, or feature points (8.1_x, "
-          "8.1_y ...), with a row per frame or per point; JSON of MediaPipe; or a video, "
+          "8.1_y ...), with a row per frame or per point; action units of OpenFace; JSON of "
+          "landmarks or shapes (MediaPipe, Audio2Face, Azure, export's own ...); or a video, "
           "with --tracker. Several inputs share a neutral face; - for standard input")
       ->required();
   cli.add("-o,--output", options.output,

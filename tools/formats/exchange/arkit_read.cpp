@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "tools/formats/exchange/arkit.h"
+#include "tools/formats/exchange/detail/arkit_units.h"
 #include "tools/formats/exchange/detail/table.h"
 #include "tools/formats/exchange/detail/times.h"
 
@@ -12,35 +12,43 @@ namespace animeme::exchange {
 namespace {
 
 struct Columns {
-  std::size_t time = 0;
+  std::optional<std::size_t> time;
+  std::optional<std::size_t> frame;                   // without a time: numbers
   std::optional<std::size_t> shape_count;             // BlendShapeCount
   std::vector<std::pair<std::size_t, int>> channels;  // field, channel
   std::vector<std::string> names;                     // of all fields
 };
 
-struct ArkitRow {
-  RowTime time;
-  fap::ArkitFrame values;
+struct ArkitRows {
+  std::vector<RowTime> times;
+  std::vector<fap::ArkitFrame> values;  // of the same rows
 };
 
-Result<Columns> read_header(const Row& header, std::vector<std::string>& warnings) {
+Result<Columns> read_header(const Row& header, bool has_rate, std::vector<std::string>& warnings) {
   const auto at = std::int64_t(header.line());
   Columns columns;
-  std::optional<std::size_t> time;
   fap::ArkitChannels seen;
   std::vector<std::string> unknown;
   for (std::size_t i = 0; i < header.size(); ++i) {
     columns.names.emplace_back(header.text(i));
     const std::string name = lower_case(columns.names[i]);
     if (is_time_name(name)) {
-      if (!time) time = i;
+      if (!columns.time) columns.time = i;
+    } else if (is_frame_name(name)) {
+      if (!columns.frame) columns.frame = i;
     } else if (name == "blendshapecount") {
       columns.shape_count = i;
     } else if (const auto channel = fap::find_arkit(name)) {
-      if (seen[std::size_t(*channel)]) return header.named_twice(i);
-      seen.set(std::size_t(*channel));
-      columns.channels.emplace_back(i, *channel);
-    } else if (name != "measured" && !name.empty()) {
+      if (!seen[std::size_t(*channel)]) {
+        seen.set(std::size_t(*channel));
+        columns.channels.emplace_back(i, *channel);
+      } else if (std::any_of(columns.names.begin(), columns.names.end() - 1,
+                             [&](const std::string& one) { return lower_case(one) == name; })) {
+        return header.named_twice(i);
+      } else {
+        unknown.push_back(columns.names[i]);  // the same shape of another mesh
+      }
+    } else if (name != "measured" && name != "row" && !name.empty()) {
       unknown.push_back(columns.names[i]);
     }
   }
@@ -51,17 +59,16 @@ Result<Columns> read_header(const Row& header, std::vector<std::string>& warning
                          "import --help); name the columns so in the first line",
                          at);
   }
-  if (!time) {
+  if (!columns.time && !has_rate) {
     return error_at_line(Code::not_found,
                          "no column has the times; name it Timecode (hh:mm:ss:ff.fff) or time_s "
-                         "(seconds)",
+                         "(seconds), or give the frames per second (--rate 60)",
                          at);
   }
   if (!unknown.empty()) {
     warnings.push_back("columns that are not ARKit blend shapes are ignored: " +
                        list_of_names(unknown));
   }
-  columns.time = *time;
   return columns;
 }
 
@@ -71,30 +78,51 @@ bool without_face(const Columns& columns, const Row& row) {
          row.number(*columns.shape_count) == 0.0;
 }
 
-Result<ArkitRow> read_row(const Row& row, const Columns& columns) {
-  if (auto ok = row.check_size(columns.names.size()); !ok) return ok.error();
-  const std::string_view at = row.text(columns.time);
-  const auto time = parse_time(at, row.line());
-  if (!time) {
-    return row.error(columns.time,
+Result<RowTime> read_time(const Row& row, const Columns& columns, std::size_t rows,
+                          std::optional<fap::Rate> rate) {
+  if (columns.time) {
+    const std::string_view at = row.text(*columns.time);
+    if (const auto time = parse_time(at, row.line())) return *time;
+    return row.error(*columns.time,
                      "'" + std::string(at) + "' is not a time; write hh:mm:ss:ff.fff or seconds");
   }
-  ArkitRow out{*time, {}};
+  double number = double(rows);
+  if (columns.frame) {
+    const auto value = row.number(*columns.frame);
+    if (!value || !std::isfinite(*value)) {
+      return row.wrong(*columns.frame, columns.names[*columns.frame], "not the number of a frame");
+    }
+    number = *value;
+  }
+  RowTime time;
+  time.seconds = number / rate->frames_per_second();
+  time.line = row.line();
+  return time;
+}
+
+Result<void> read_row(const Row& row, const Columns& columns, std::optional<fap::Rate> rate,
+                      ArkitRows& rows) {
+  if (auto ok = row.check_size(columns.names.size()); !ok) return ok.error();
+  Result<RowTime> time = read_time(row, columns, rows.times.size(), rate);
+  if (!time) return std::move(time).error();
+  fap::ArkitFrame values{};
   for (const auto& [field, channel] : columns.channels) {
     const auto value = row.number(field);
     if (!value || !std::isfinite(*value)) {
       return row.wrong(field, columns.names[field],
                        "not a finite number; correct it or remove the line");
     }
-    out.values[std::size_t(channel)] = *value;
+    values[std::size_t(channel)] = *value;
   }
-  return out;
+  rows.times.push_back(*time);
+  rows.values.push_back(values);
+  return {};
 }
 
-Result<std::vector<ArkitRow>> read_rows(const std::vector<dam::TableLine>& lines, char separator,
-                                        const Columns& columns,
-                                        std::vector<std::string>& warnings) {
-  std::vector<ArkitRow> rows;
+Result<ArkitRows> read_rows(const std::vector<dam::TableLine>& lines, char separator,
+                            const Columns& columns, std::optional<fap::Rate> rate,
+                            std::vector<std::string>& warnings) {
+  ArkitRows rows;
   std::size_t lost = 0;
   for (std::size_t i = 1; i < lines.size(); ++i) {
     const Row fields(lines[i], separator);
@@ -102,11 +130,9 @@ Result<std::vector<ArkitRow>> read_rows(const std::vector<dam::TableLine>& lines
       ++lost;
       continue;
     }
-    Result<ArkitRow> row = read_row(fields, columns);
-    if (!row) return std::move(row).error();
-    rows.push_back(std::move(*row));
+    if (auto read = read_row(fields, columns, rate, rows); !read) return read.error();
   }
-  if (rows.empty()) {
+  if (rows.times.empty()) {
     return make_error(Code::truncated, "there is no row with a face after the header line");
   }
   if (lost > 0) {
@@ -115,56 +141,71 @@ Result<std::vector<ArkitRow>> read_rows(const std::vector<dam::TableLine>& lines
   return rows;
 }
 
-// The channels of the table but angles that were not recorded.
-fap::ArkitChannels channels_of(const Columns& columns, const std::vector<ArkitRow>& rows) {
+// The channel of the other side; nullopt if the shape has no sides.
+std::optional<int> other_side(int channel) {
+  std::string name(fap::kArkitNames[std::size_t(channel)]);
+  for (const auto& [side, other] : {std::pair("Left", "Right"), {"Right", "Left"}}) {
+    if (!name.ends_with(side)) continue;
+    return fap::find_arkit(
+        name.replace(name.size() - std::string_view(side).size(), std::string::npos, other));
+  }
+  return std::nullopt;
+}
+
+// The channels of the table but angles that were not recorded. A table that has a shape of one side
+// says that the other side rests.
+fap::ArkitChannels channels_of(const Columns& columns, const std::vector<fap::ArkitFrame>& values) {
   fap::ArkitChannels channels;
   for (const auto& [field, number] : columns.channels) {
     const std::size_t channel = std::size_t(number);
-    const bool moves = std::any_of(rows.begin(), rows.end(),
-                                   [&](const ArkitRow& row) { return row.values[channel] != 0; });
+    const bool moves = std::any_of(values.begin(), values.end(),
+                                   [&](const fap::ArkitFrame& row) { return row[channel] != 0; });
     channels[channel] = channel < fap::kArkitShapeCount || moves;
+    if (channel >= fap::kArkitShapeCount) continue;
+    if (const auto other = other_side(number)) channels.set(std::size_t(*other));
   }
   return channels;
-}
-
-void to_radians(std::vector<ArkitRow>& rows, bool degrees, std::vector<std::string>& warnings) {
-  double largest = 0;
-  for (ArkitRow& row : rows) {
-    for (std::size_t i = fap::kArkitShapeCount; i < fap::kArkitChannelCount; ++i) {
-      largest = std::max(largest, std::abs(row.values[i]));
-      if (degrees) row.values[i] *= std::numbers::pi / 180;
-    }
-  }
-  if (!degrees && largest > std::numbers::pi) {
-    warnings.push_back(
-        "angles of head and eyes exceed half a turn; if they are in degrees, use --degrees");
-  }
 }
 
 // The rows of a table, each with the number of its frame, if it has one.
 struct TableRows {
   fap::Rate rate;
-  std::vector<ArkitRow> rows;
+  std::vector<fap::ArkitFrame> values;
   std::vector<std::optional<std::int64_t>> numbers;
   fap::ArkitChannels channels;
 };
+
+// Frames between rows that come a little more slowly than frames do: the mean of both.
+void insert_frames(const std::vector<std::size_t>& late, TableRows& table) {
+  for (auto row = late.rbegin(); row != late.rend(); ++row) {
+    const auto at = std::ptrdiff_t(*row);
+    fap::ArkitFrame mean = table.values[*row];
+    for (std::size_t i = 0; i < mean.size(); ++i)
+      mean[i] = (mean[i] + table.values[*row - 1][i]) / 2;
+    const std::int64_t number = table.numbers[*row].value_or(1) - 1;
+    table.values.insert(table.values.begin() + at, mean);
+    table.numbers.insert(table.numbers.begin() + at, number);
+  }
+}
 
 Result<TableRows> read_placed(std::string_view text, const ArkitOptions& options,
                               std::vector<std::string>& warnings) {
   const auto lines = dam::table_lines(text);
   if (lines.empty()) return make_error(Code::truncated, "the table is empty");
   const char separator = separator_of(lines[0].text);
-  const auto columns = read_header(Row(lines[0], separator), warnings);
+  const std::optional<fap::Rate> rate =
+      options.rate && options.rate->valid() ? options.rate : std::nullopt;
+  const auto columns = read_header(Row(lines[0], separator), rate.has_value(), warnings);
   if (!columns) return columns.error();
-  auto rows = read_rows(lines, separator, *columns, warnings);
+  auto rows = read_rows(lines, separator, *columns, rate, warnings);
   if (!rows) return rows.error();
-  std::vector<RowTime> times;
-  for (const ArkitRow& row : *rows) times.push_back(row.time);
-  auto placed = place_rows(times, options.rate, warnings);
+  auto placed = place_rows(rows->times, options.rate, warnings);
   if (!placed) return placed.error();
-  to_radians(*rows, options.degrees, warnings);
-  const fap::ArkitChannels channels = channels_of(*columns, *rows);
-  return TableRows{placed->rate, std::move(*rows), std::move(placed->numbers), channels};
+  to_usual_units(rows->values, options.degrees, warnings);
+  const fap::ArkitChannels channels = channels_of(*columns, rows->values);
+  TableRows table{placed->rate, std::move(rows->values), std::move(placed->numbers), channels};
+  insert_frames(placed->late, table);
+  return table;
 }
 
 }  // namespace
@@ -182,9 +223,9 @@ Result<Imported> read_arkit_table(std::string_view text, const ArkitOptions& opt
   const auto rows = read_placed(text, options, out.warnings);
   if (!rows) return rows.error();
   out.clip.rate = rows->rate;
-  for (std::size_t i = 0; i < rows->rows.size(); ++i) {
+  for (std::size_t i = 0; i < rows->values.size(); ++i) {
     if (!rows->numbers[i]) continue;
-    out.clip.frames.push_back(fap::arkit_to_fap(rows->rows[i].values, rows->channels));
+    out.clip.frames.push_back(fap::arkit_to_fap(rows->values[i], rows->channels));
     out.clip.frames.back().number = *rows->numbers[i];
   }
   return out;
@@ -195,12 +236,12 @@ Result<ArkitCurves> read_arkit_weights(std::string_view text, const ArkitOptions
   const auto rows = read_placed(text, options, warnings);
   if (!rows) return rows.error();
   ArkitCurves out{rows->rate, {}};
-  for (std::size_t i = 0; i < rows->rows.size(); ++i) {
+  for (std::size_t i = 0; i < rows->values.size(); ++i) {
     if (!rows->numbers[i]) continue;
     // By value: the row before may be moved meanwhile.
-    const fap::ArkitFrame held = out.frames.empty() ? rows->rows[i].values : out.frames.back();
+    const fap::ArkitFrame held = out.frames.empty() ? rows->values[i] : out.frames.back();
     out.frames.resize(std::size_t(*rows->numbers[i]) + 1, held);
-    out.frames.back() = rows->rows[i].values;
+    out.frames.back() = rows->values[i];
   }
   return out;
 }

@@ -6,6 +6,7 @@
 
 #include "dam/signal/fap_signal.h"
 #include "tools/formats/exchange/arkit.h"
+#include "tools/formats/exchange/detail/action_units.h"
 #include "tools/formats/exchange/detail/json_landmarks.h"
 #include "tools/formats/exchange/detail/landmark_columns.h"
 #include "tools/formats/exchange/detail/table.h"
@@ -257,7 +258,16 @@ Result<CaptureTable> capture_table(std::string_view text, const CaptureTableOpti
   }
   lines = dam::table_lines(out.table);
   if (lines.empty()) return make_error(Code::truncated, "no column is left");
-  const std::string_view header = header_of(lines);
+  std::string_view header = header_of(lines);
+  const bool points = is_landmark_header(header) || has_landmark_columns(header) || out.layout;
+  if (!points && !has_shape(header) && is_action_unit_table(header)) {
+    auto shapes = action_units_to_shapes(out.table);
+    if (!shapes) return shapes.error();
+    out.table = std::move(shapes->table);
+    for (std::string& one : shapes->warnings) out.warnings.push_back(std::move(one));
+    lines = dam::table_lines(out.table);
+    header = header_of(lines);
+  }
   if (is_arkit_table(header) || (has_shape(header) && !has_landmark_columns(header))) {
     out.kind = CaptureKind::arkit;
   } else if (is_landmark_header(header) || has_landmark_columns(header) || out.layout) {

@@ -17,6 +17,10 @@
 ///   seconds, timestamp_ms or time_ms; its number frame or index. A frame without points has no
 ///   face. `width` and `height` next to the frames are the picture's size. Blend shapes
 ///   (faceBlendshapes, blendshapes) are used if there are no points, or on request.
+/// - JSON of ARKit's shapes in any structure: detail/json_curves.h (animeme-arkit, Audio2Face,
+/// BEAT,
+///   Azure Speech, lists of dictionaries, MediaPipe).
+/// - Action units (AU01_r, AU12 ...) of OpenFace, LibreFace and Py-Feat, where there are no points.
 /// - Decimal commas, if semicolons or tabs separate the fields.
 #pragma once
 

@@ -4,6 +4,8 @@
 #include <string_view>
 
 #include "tools/formats/exchange/arkit.h"
+#include "tools/formats/exchange/detail/action_units.h"
+#include "tools/formats/exchange/detail/json_curves.h"
 #include "tools/formats/exchange/landmarks.h"
 
 namespace animeme::exchange {
@@ -66,10 +68,11 @@ FileKind kind_of(std::span<const std::uint8_t> bytes) {
       // The header of a table of landmarks is longer than the head.
       const std::string_view rest = whole.substr(std::size_t(line.data() - whole.data()));
       if (line.substr(first).starts_with("time_s") || is_arkit_table(line) ||
-          is_landmark_table(rest)) {
+          is_landmark_table(rest) || is_action_unit_table(line)) {
         return FileKind::curves;
       }
       const char c = line[first];
+      if ((c == '{' || c == '[') && looks_like_json_curves(rest)) return FileKind::curves;
       const bool number = (c >= '0' && c <= '9') || c == '-' || c == '.';
       if (!number || ends_in_a_word(line) || view.find("-->") != std::string_view::npos) {
         return FileKind::script;

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <set>
 
-#include "fap/arkit.h"
 #include "tools/formats/common/json.h"
+#include "tools/formats/exchange/detail/json_curves.h"
 #include "tools/formats/exchange/detail/table.h"
 
 namespace animeme::exchange {
@@ -82,39 +82,9 @@ const Json* points_of(const Json& frame, int depth = 0) {
   return nullptr;
 }
 
-// {"jawOpen": 0.1}, or [{"categoryName": "jawOpen", "score": 0.1}] in some wrapping.
-void add_shapes(const Json& json, std::map<std::string, double>& out, int depth = 0) {
-  if (depth > 4) return;
-  if (json.is_array()) {
-    // Of several faces the first; of categories all.
-    const bool faces = !json.empty() && (json[0].is_array() || json[0].contains("categories"));
-    for (const Json& one : json) {
-      add_shapes(one, out, depth + 1);
-      if (faces) return;
-    }
-    return;
-  }
-  if (!json.is_object()) return;
-  if (const Json* inside = json.find("categories")) {
-    add_shapes(*inside, out, depth + 1);
-    return;
-  }
-  const Json* score = json.find("score");
-  for (const char* key : {"categoryName", "category_name", "name"}) {
-    const Json* name = json.find(key);
-    if (name == nullptr || !name->is_string() || score == nullptr) continue;
-    if (score->is_number()) out[name->text()] = score->get<double>();
-    return;
-  }
-  for (const auto& [name, value] : json.items()) {
-    if (value.is_number()) out[name] = value.get<double>();
-  }
-}
-
 struct Frame {
   std::optional<double> seconds, number;
   const Json* points = nullptr;
-  std::map<std::string, double> shapes;
 };
 
 std::optional<double> number_of(const Json* json) {
@@ -130,10 +100,6 @@ Frame read_frame(const Json& json) {
   }
   frame.number = number_of(member(json, kNumbers));
   frame.points = points_of(json);
-  if (const Json* shapes = member(json, kShapes)) {
-    add_shapes(*shapes, frame.shapes);
-    std::erase_if(frame.shapes, [](const auto& one) { return !fap::find_arkit(one.first); });
-  }
   return frame;
 }
 
@@ -219,30 +185,6 @@ Result<void> write_points(const std::vector<Frame>& frames, JsonTable& out) {
   return {};
 }
 
-void write_shapes(const std::vector<Frame>& frames, JsonTable& out) {
-  std::set<std::string> names;
-  for (const Frame& frame : frames) {
-    for (const auto& [name, value] : frame.shapes) names.insert(name);
-  }
-  const Clock clock(frames);
-  out.table = clock.header();
-  for (const std::string& name : names) out.table += "," + name;
-  std::size_t lost = 0;
-  for (std::size_t row = 0; row < frames.size(); ++row) {
-    if (frames[row].shapes.empty()) {
-      ++lost;
-      continue;
-    }
-    out.table += "\n" + clock.field_of(frames[row], row);
-    for (const std::string& name : names) {
-      const auto found = frames[row].shapes.find(name);
-      out.table += "," + field(found == frames[row].shapes.end() ? 0 : found->second);
-    }
-  }
-  out.table += "\n";
-  if (lost > 0) out.warnings.push_back("frames without a face, skipped: " + std::to_string(lost));
-}
-
 // The frames of a value, or of one value a line.
 Result<Json> parse(std::string_view text) {
   Result<Json> json = Json::parse(text, {.sorted = true});
@@ -292,10 +234,14 @@ Result<JsonTable> json_to_table(std::string_view text, bool shapes) {
   if (width && height && *width > 0 && *height > 0) out.size = PictureSize{*width, *height};
   const bool points = std::any_of(frames.begin(), frames.end(),
                                   [](const Frame& frame) { return frame.points != nullptr; });
-  const bool curves = std::any_of(frames.begin(), frames.end(),
-                                  [](const Frame& frame) { return !frame.shapes.empty(); });
+  std::optional<JsonCurves> curves;
+  if (shapes || !points) curves = find_json_curves(*root);
+  // Members for faces, all of them empty.
   const auto asks = [](const Json& one) {
-    return member(one, kPoints) != nullptr || member(one, kShapes) != nullptr;
+    const Json* places = member(one, kPoints);
+    const Json* weights = member(one, kShapes);
+    return (places != nullptr || weights != nullptr) && (places == nullptr || places->empty()) &&
+           (weights == nullptr || weights->empty());
   };
   const auto members = list->items();
   const bool asked =
@@ -308,10 +254,12 @@ Result<JsonTable> json_to_table(std::string_view text, bool shapes) {
   if (!points && !curves) {
     return make_error(Code::not_found,
                       "the JSON has neither landmarks (faceLandmarks, landmarks, keypoints: arrays "
-                      "of {x, y, z}) nor blend shapes (faceBlendshapes) in any frame");
+                      "of {x, y, z}) nor names of ARKit's blend shapes (jawOpen, EyeBlinkLeft ...) "
+                      "with numbers");
   }
-  if (curves && (shapes || !points)) {
-    write_shapes(frames, out);
+  if (curves) {
+    out.table = std::move(curves->table);
+    out.warnings = std::move(curves->warnings);
   } else if (auto ok = write_points(frames, out); !ok) {
     return ok.error();
   }

@@ -37,8 +37,16 @@ char separator_of(std::string_view header) {
 }
 
 bool is_time_name(std::string_view name) {
-  return name == "timecode" || name == "time_s" || name == "time" || name == "timestamp" ||
-         name == "time_ms" || name == "timestamp_ms";
+  constexpr std::string_view kNames[] = {"timecode",     "time_s",  "time",    "timestamp",
+                                         "time_ms",      "time_us", "seconds", "time_seconds",
+                                         "timestamp_ms", "time_sec"};
+  return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
+}
+
+bool is_frame_name(std::string_view name) {
+  constexpr std::string_view kNames[] = {"frame",      "frame_number", "frame_index",
+                                         "frameindex", "framenumber",  "frame_id"};
+  return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 
 std::string list_of_names(const std::vector<std::string>& names) {

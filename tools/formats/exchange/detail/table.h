@@ -26,9 +26,11 @@ std::string_view first_line(std::string_view text);
 /// Of comma, semicolon and tab the one that a header line has most of.
 char separator_of(std::string_view header);
 
-/// True for timecode, time_s, time, timestamp, time_ms and timestamp_ms (lower case): a column of
-/// times, whose unit is told from their steps.
+/// True for timecode, time_s, time, timestamp, time_ms, timestamp_ms, seconds and the like (lower
+/// case): a column of times, whose unit is told from their steps.
 bool is_time_name(std::string_view name);
+/// True for frame, frame_number, frame_index and the like (lower case).
+bool is_frame_name(std::string_view name);
 
 /// "A, B, C, D, E, F and 3 more".
 std::string list_of_names(const std::vector<std::string>& names);

@@ -22,6 +22,11 @@ constexpr double kShortestStep = 0.003;  // seconds between frames, 1/333
 constexpr double kUsualStep = 1.0;
 constexpr std::size_t kStepsToTell = 4;  // of a unit: two rows may be any time apart
 constexpr double kNtscFrom = 2.0;        // seconds: shorter clips cannot tell 29.97 from 30
+constexpr double kEven = 0.3;            // of a step: one that differs less from the median is even
+constexpr double kMostlyEven = 0.95;     // of all steps
+constexpr double kHeard = 0.04;          // seconds: less is not noticed between face and sound
+constexpr double kSurely = 0.02;         // of all steps: readings that differ less are equally good
+constexpr double kMillisecondsASecond = 1000;  // as a timecode rate
 constexpr int kTimecodeRates[] = {24, 25, 30, 48, 50, 60, 100, 120};
 constexpr fap::Rate kRates[] = {{24, 1},       {25, 1}, {30, 1}, {50, 1}, {60, 1},  {30000, 1001},
                                 {60000, 1001}, {10, 1}, {12, 1}, {25, 2}, {15, 1},  {20, 1},
@@ -92,13 +97,31 @@ int tell_timecode_rate(const std::vector<RowTime>& times, std::optional<fap::Rat
   return timecode_rate(last, 60);
 }
 
-std::vector<double> seconds_of(const std::vector<RowTime>& times, int per_second) {
+// What the last field of timecodes means.
+enum class Reading : std::uint8_t {
+  frames,        // and fractions of a frame
+  milliseconds,  // of the second
+  fraction       // what is behind the point is a fraction of the second
+};
+
+// Labels that a drop-frame timecode has left out since midnight: two a minute at 30 frames a
+// second, but not in each tenth minute.
+double dropped_labels(double seconds, int per_second) {
+  const double minutes = std::floor(seconds / 60);
+  return std::round(per_second / 15.0) * (minutes - std::floor(minutes / 10));
+}
+
+std::vector<double> seconds_of(const std::vector<RowTime>& times, int per_second, Reading reading) {
   std::vector<double> seconds;
   double midnight = 0;
   for (const RowTime& time : times) {
     double now = time.seconds + midnight;
     if (time.frames) {
-      now += *time.frames / per_second;
+      const double whole = std::floor(*time.frames);
+      now += reading == Reading::frames         ? *time.frames / per_second
+             : reading == Reading::milliseconds ? *time.frames / kMillisecondsASecond
+                                                : *time.frames - whole;
+      if (time.drop) now -= dropped_labels(time.seconds, per_second) / per_second;
       if (!seconds.empty() && seconds.back() - now > kDay / 2) {
         midnight += kDay;
         now += kDay;
@@ -107,6 +130,32 @@ std::vector<double> seconds_of(const std::vector<RowTime>& times, int per_second
     seconds.push_back(now);
   }
   return seconds;
+}
+
+// The share of steps that are not nearly the median; 1 if times go back or none moves on.
+double unevenness(const std::vector<double>& seconds) {
+  const std::vector<double> steps = steps_of(seconds);
+  if (steps.empty()) return 1;
+  const double step = median(steps);
+  std::size_t uneven = 0;
+  for (std::size_t i = 1; i < seconds.size(); ++i) {
+    const double one = seconds[i] - seconds[i - 1];
+    if (one < 0) return 1;
+    uneven += std::abs(one / step - 1) > kEven ? 1 : 0;
+  }
+  return double(uneven) / double(seconds.size() - 1);
+}
+
+Reading tell_reading(const std::vector<RowTime>& times) {
+  const auto all = [&](auto holds) { return std::all_of(times.begin(), times.end(), holds); };
+  // No camera has frames with three digits.
+  if (all([](const RowTime& time) { return time.digits >= 3; })) return Reading::milliseconds;
+  if (!all([](const RowTime& time) { return time.fraction; })) return Reading::frames;
+  double last = 0;
+  for (const RowTime& time : times) last = std::max(last, time.frames.value_or(0));
+  const double by_frames = unevenness(seconds_of(times, timecode_rate(last), Reading::frames));
+  const double by_fraction = unevenness(seconds_of(times, 1, Reading::fraction));
+  return by_fraction < by_frames - kSurely ? Reading::fraction : Reading::frames;
 }
 
 // How many seconds a time counts: trackers write milliseconds (MediaPipe), micro- and nanoseconds.
@@ -147,6 +196,23 @@ fap::Rate snapped(double measured, double duration, bool timecode) {
   return fap::make_rate(std::uint32_t(std::lround(measured * 16)), 16);
 }
 
+// Of rows in even steps: a usual rate that stays within what is noticed to their end, else the
+// next one above theirs that can be coded, so that no row is lost.
+fap::Rate rate_of_even(double measured, double duration) {
+  fap::Rate best{0, 1};
+  double least = std::max(kHeard, kSlack / measured);
+  for (const fap::Rate& rate : kRates) {
+    if (rate.den == 1001 && duration < kNtscFrom) continue;
+    const double drift = std::abs(measured / rate.frames_per_second() - 1) * duration;
+    if (std::abs(measured / rate.frames_per_second() - 1) < kSnap && drift < least) {
+      least = drift;
+      best = rate;
+    }
+  }
+  if (best.valid()) return best;
+  return fap::make_rate(std::uint32_t(std::ceil(measured * 16 - 0.01)), 16);
+}
+
 Result<fap::Rate> tell_rate(const std::vector<double>& seconds, bool timecode) {
   const std::vector<double> steps = steps_of(seconds);
   if (steps.empty()) {
@@ -161,7 +227,22 @@ Result<fap::Rate> tell_rate(const std::vector<double>& seconds, bool timecode) {
         "the times are " + std::to_string(step) +
             " s apart, which is not a valid frame rate; correct them or give the rate");
   }
+  if (duration > 0 && steps.size() >= kStepsToTell && 1 - unevenness(seconds) >= kMostlyEven) {
+    return rate_of_even(measured, duration);
+  }
   return snapped(measured, duration, timecode);
+}
+
+// What a frame of the clip is in the times: timecodes of an NTSC rate that somebody names mostly
+// count to the next whole number, and sometimes not.
+double scale_of(const std::vector<double>& seconds, fap::Rate rate, bool timecode, bool given) {
+  const double exact = rate.frames_per_second();
+  if (!timecode || !given) return exact;
+  const std::vector<double> steps = steps_of(seconds);
+  const double counted = counted_rate(rate);
+  if (steps.size() < kStepsToTell) return counted;
+  const double measured = measured_rate(seconds, median(steps));
+  return std::abs(measured - exact) < std::abs(measured - counted) ? exact : counted;
 }
 
 // The frame number of a row at `position` behind a row with number `previous` (-1: none). Rows
@@ -177,7 +258,12 @@ std::int64_t next_number(std::int64_t previous, double position) {
 }  // namespace
 
 std::optional<RowTime> parse_time(std::string_view field, std::size_t line) {
-  const auto parts = dam::split_fields(field, ':');
+  std::string text(field);
+  // Drop-frame timecodes have a semicolon before the frames.
+  const std::size_t semicolon = text.rfind(';');
+  const bool drop = semicolon != std::string::npos && text.find(':') < semicolon;
+  if (drop) text[semicolon] = ':';
+  const auto parts = dam::split_fields(text, ':');
   if (parts.size() == 1) {
     const auto seconds = dam::parse_number(field);
     if (!seconds || !std::isfinite(*seconds)) return std::nullopt;
@@ -192,9 +278,67 @@ std::optional<RowTime> parse_time(std::string_view field, std::size_t line) {
     value[i] = *number;
   }
   RowTime time{value[0] * 3600 + value[1] * 60 + value[2], std::nullopt, line};
-  if (parts.size() == 4) time.frames = value[3];
+  if (parts.size() < 4) return time;
+  const std::size_t point = parts[3].find('.');
+  time.frames = value[3];
+  time.digits = int(std::min(point, parts[3].size()));
+  time.fraction = point != std::string_view::npos && point + 1 < parts[3].size();
+  time.drop = drop;
   return time;
 }
+
+namespace {
+
+// Numbers rows one after the other.
+class Numbering {
+ public:
+  Numbering(PlacedRows& placed, double scale, double step, bool even)
+      : placed_(placed), scale_(scale), step_(step), even_(even) {}
+
+  // `seconds` after the first row.
+  void place(double seconds) {
+    const double position = seconds * scale_;  // in frames
+    const double expected = double(number_ + 1);
+    const double one = number_ < 0 ? step_ : seconds - before_;
+    before_ = seconds;
+    std::int64_t next = 0;
+    if (even_ && std::abs(one / step_ - 1) <= kEven) {
+      next = number_ + 1;
+      if (position - expected > std::max(kSlack, kHeard * scale_)) {
+        ++next;
+        placed_.late.push_back(placed_.numbers.size());
+      }
+      drift_ = position - double(next);
+    } else {
+      next = next_number(number_, position - drift_);
+    }
+    if (next == number_) {
+      placed_.numbers.back().reset();
+      ++merged_;
+    }
+    number_ = next;
+    placed_.numbers.emplace_back(number_);
+  }
+
+  std::size_t merged() const { return merged_; }
+
+ private:
+  PlacedRows& placed_;
+  double scale_, step_;
+  bool even_;
+  std::int64_t number_ = -1;
+  double before_ = 0, drift_ = 0;
+  std::size_t merged_ = 0;
+};
+
+// Rows whose steps are those of the clip, nearly all of them.
+bool is_even(const std::vector<double>& seconds, double scale) {
+  const std::vector<double> steps = steps_of(seconds);
+  if (steps.size() < kStepsToTell || 1 - unevenness(seconds) < kMostlyEven) return false;
+  return std::abs(measured_rate(seconds, median(steps)) / scale - 1) < kSnap;
+}
+
+}  // namespace
 
 Result<PlacedRows> place_rows(const std::vector<RowTime>& times, std::optional<fap::Rate> rate,
                               std::vector<std::string>& warnings) {
@@ -202,44 +346,51 @@ Result<PlacedRows> place_rows(const std::vector<RowTime>& times, std::optional<f
     return make_error(Code::invalid_argument, "the given frame rate is invalid");
   }
   const bool timecode = times.front().frames.has_value();
-  const int per_second = timecode ? tell_timecode_rate(times, rate, warnings) : 1;
-  std::vector<double> seconds = seconds_of(times, per_second);
+  const Reading reading = timecode ? tell_reading(times) : Reading::frames;
+  const bool counts = timecode && reading == Reading::frames;
+  const int per_second = counts ? tell_timecode_rate(times, rate, warnings) : 1;
+  std::vector<double> seconds = seconds_of(times, per_second, reading);
+  if (timecode && !counts) {
+    warnings.push_back("the last field of the timecodes is taken as " +
+                       std::string(reading == Reading::milliseconds
+                                       ? "milliseconds"
+                                       : "a frame and, behind the point, milliseconds") +
+                       ", since the steps are even so");
+  }
   const double unit = timecode ? 1 : tell_unit(seconds, warnings);
   for (double& time : seconds) time *= unit;
+  const bool given = rate.has_value();
   if (!rate) {
-    Result<fap::Rate> told = tell_rate(seconds, timecode);
+    Result<fap::Rate> told = tell_rate(seconds, counts);
     if (!told) return std::move(told).error();
     rate = *told;
   }
-  const double scale = timecode ? counted_rate(*rate) : rate->frames_per_second();
+  const double scale = scale_of(seconds, *rate, counts, given);
   PlacedRows placed{*rate, unit, {}};
-  std::size_t merged = 0;
-  std::int64_t number = -1;
-  double before = 0;
+  const std::vector<double> steps = steps_of(seconds);
+  Numbering numbering(placed, scale, steps.empty() ? 1 : median(steps), is_even(seconds, scale));
   for (std::size_t i = 0; i < times.size(); ++i) {
     const auto at = std::int64_t(times[i].line);
-    const double position = (seconds[i] - seconds.front()) * scale;  // in frames after the first
-    if (position < before) {
+    const double after = seconds[i] - seconds.front();
+    if (i > 0 && seconds[i] < seconds[i - 1]) {
       return error_at_line(Code::out_of_range, "the time goes back; sort the rows by time", at);
     }
-    if (position > kLargestFrame) {
+    if (after * scale > kLargestFrame) {
       return error_at_line(Code::out_of_range,
                            "the time is more than 10 million frames after the first; correct it",
                            at);
     }
-    const std::int64_t next = next_number(number, position);
-    before = position;
-    if (next == number) {
-      placed.numbers.back().reset();
-      ++merged;
-    }
-    number = next;
-    placed.numbers.emplace_back(number);
+    numbering.place(after);
   }
-  if (merged > 0) {
+  if (numbering.merged() > 0) {
     warnings.push_back(
-        "rows on the same frame as the next one, skipped: " + std::to_string(merged) + " (at " +
-        fap::format_rate(placed.rate) + " frames a second)");
+        "rows on the same frame as the next one, skipped: " + std::to_string(numbering.merged()) +
+        " (at " + fap::format_rate(placed.rate) + " frames a second)");
+  }
+  if (!placed.late.empty()) {
+    warnings.push_back("the rows come a little more slowly than " + fap::format_rate(placed.rate) +
+                       " frames a second; frames added between them to keep in time: " +
+                       std::to_string(placed.late.size()));
   }
   return placed;
 }

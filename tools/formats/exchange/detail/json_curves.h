@@ -1,0 +1,42 @@
+// Curves of ARKit shapes in JSON of any structure.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fap/result.h"
+#include "tools/formats/common/json.h"
+
+namespace animeme::exchange {
+
+/// Curves as a table for read_arkit_table().
+struct JsonCurves {
+  std::string table;                  ///< with a header line
+  std::vector<std::string> warnings;  ///< what was left out or assumed
+};
+
+/// Finds names, frames and rate by their shape, not by the names of members:
+///
+/// - a list of names (at least two of them ARKit's) beside a matrix of numbers, one row a frame or
+///   one a name, or beside frames that each hold a row (animeme-arkit, Audio2Face, BEAT);
+/// - a list of objects, or of lists of {name, number}, that each hold numbers by name, at any depth
+///   (MediaPipe, face-api, dictionaries); an object of such objects by number; one frame alone;
+/// - an object with a list of numbers a name;
+/// - pieces of 55 numbers a frame and the number of their first frame (Azure Speech, 60 a second),
+///   also as text in `animation` of its viseme events.
+///
+/// The rate is a number, or two, called fps, frameRate, exportFps, rate or the like, beside the
+/// frames or further out; the time of a frame time, timestamp, t, timeCode and the like in seconds,
+/// or timestamp_ms, time_ms. With neither, the table has no times, and its reader wants a rate.
+///
+/// nullopt: there are no such curves.
+std::optional<JsonCurves> find_json_curves(const tools::Json& root);
+
+/// Whether the beginning of a text is JSON that has two names of ARKit's shapes, or Azure's
+/// BlendShapes: it may be cut off.
+bool looks_like_json_curves(std::string_view text);
+
+}  // namespace animeme::exchange
