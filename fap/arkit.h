@@ -91,17 +91,21 @@ struct ArkitFitOptions {
   double sparsity = 1;
 };
 
-/// FAPs to ARKit weights, frame by frame. Movable, not copyable. About 0.1 ms per frame.
+/// FAPs to ARKit weights, frame by frame. Movable, not copyable. Less than 1 ms per frame.
 ///
 /// - Gaze: eyeLookIn, Out, Up and Down from the angles of FAP 23 to 26, and the eye angles the same
 ///   way. Head angles from FAP 48 to 50. tongueOut from FAP 45. These are exact (shapes end at 1)
 ///   and the inverse of arkit_to_fap().
-/// - All other shapes: weights from 0 to 1 by least squares over the FAPs of the frame's mask, in
-///   lengths on the face (FAPU of the head that the table was measured on). Lids in a blink have a
-///   higher weight, so that closed eyes are closed; lips that would stay further apart than they
-///   should are drawn together, so that P, B and M close.
+/// - Faces that ARKit's shapes made, as those of captures are, come back as they were, whatever the
+///   frame before: the most likely weights for FAPs that were rounded or quantised.
+/// - Other faces: lids and brows by their FAPs alone; the rest, weights from 0 to 1 by least squares
+///   over the FAPs of the frame's mask, in lengths on the face (FAPU of the head that the table was
+///   measured on). Lips that would stay further apart than they should are drawn together, so that
+///   P, B and M close.
+/// - eyeBlink and eyeWide are never on together. Where lids meet (FAP 19 and 21 add up to 1024),
+///   eyeBlink is 1, or at least 0.85 if the eye looks down: lids stop at each other, so FAPs do not
+///   say how far the blink would go on.
 /// - FAPs that no shape reaches (pupils, ears, ...) are lost; brows raised beyond the shapes stop
-///   at 1. The same frames give the same weights on every machine.
 ///   at 1. The same frames give the same weights on every machine.
 class ArkitFitter {
  public:

@@ -7,8 +7,7 @@
 
 #include "fap/arkit.h"
 #include "fap/arkit_internal.h"
-#include "fap/detail/arkit_sparsity.h"
-#include "fap/detail/bounded_fit.h"
+#include "fap/detail/face_fit.h"
 
 namespace animeme::fap {
 namespace {
@@ -57,8 +56,7 @@ double effect(std::size_t channel, int fap) {
 
 struct ArkitFitter::Impl {
   std::vector<std::size_t> shapes;  // those that are fitted, by channel
-  internal::BoundedFit fit;
-  bool sparse = false;
+  internal::FaceFit fit;
 };
 
 namespace {
@@ -95,26 +93,26 @@ internal::Lips lips_of(const std::vector<std::vector<ArkitWeight>>& weights) {
   return lips;
 }
 
-internal::BoundedFit fit_of(const ArkitFitOptions& options) {
+internal::FaceFit fit_of(const ArkitFitOptions& options) {
   const std::vector<std::size_t> shapes = fitted_shapes();
   const auto weights = weights_of(shapes);
-  internal::BoundedFit fit(weights, options.ridge, options.steadiness,
-                           std::numeric_limits<double>::infinity(), 0, lips_of(weights));
-  fit.set_sparsity(internal::sparsity_of(
-      std::vector<std::optional<int>>(shapes.begin(), shapes.end()), options.sparsity));
-  return fit;
+  return {weights,
+          std::vector<std::optional<int>>(shapes.begin(), shapes.end()),
+          {options.ridge, options.steadiness, options.sparsity},
+          lips_of(weights)};
 }
 
 }  // namespace
 
 ArkitFitter::ArkitFitter(const ArkitFitOptions& options)
-    : impl_(new Impl{fitted_shapes(), fit_of(options), options.sparsity > 0}) {}
+    : impl_(new Impl{fitted_shapes(), fit_of(options)}) {}
 ArkitFitter::ArkitFitter(ArkitFitter&&) noexcept = default;
 ArkitFitter& ArkitFitter::operator=(ArkitFitter&&) noexcept = default;
 ArkitFitter::~ArkitFitter() = default;
 
 ArkitFrame ArkitFitter::fit(const Frame& frame) {
   ArkitFrame out{};
+  std::array<double, 2> looks_down{};
   internal::FapValues target = internal::target_of(frame);
   for (std::size_t d = 0; d < std::size(kDirect); ++d) {
     const Direct& direct = kDirect[d];
@@ -130,8 +128,10 @@ ArkitFrame ArkitFitter::fit(const Frame& frame) {
       target[std::size_t(weight.fap)] -= out[channel] * weight.value;
     }
   }
-  const Mask mask = impl_->sparse ? internal::without_unmeasured(frame) : frame.mask;
-  const std::vector<double>& weights = impl_->fit.fit(mask, target);
+  static const std::size_t kDown[] = {std::size_t(find_arkit("eyeLookDownLeft").value_or(0)),
+                                      std::size_t(find_arkit("eyeLookDownRight").value_or(0))};
+  for (const std::size_t side : {0, 1}) looks_down[side] = out[kDown[side]];
+  const std::vector<double>& weights = impl_->fit.fit(frame, target, looks_down);
   for (std::size_t i = 0; i < impl_->shapes.size(); ++i) out[impl_->shapes[i]] = weights[i];
   return out;
 }

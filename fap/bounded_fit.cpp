@@ -9,9 +9,7 @@
 namespace animeme::fap::internal {
 namespace {
 
-constexpr int kMostSweeps = 5000;
 constexpr int kPriceSteps = 30;
-constexpr double kStill = 1e-6;      // a weight that changes less has converged
 constexpr double kAngleUnit = 1e-5;  // rad
 constexpr double kLidsCount = 3;     // the opening of the eye is small but conspicuous
 // The width of a mouth distinguishes O and U from A and E, but height has twelve FAPs and width
@@ -140,27 +138,12 @@ void BoundedFit::descend(const std::vector<double>& wanted, double steadiness, d
 // left_ is what is wanted, with the pull of the frame before in it, less what weights cost.
 void BoundedFit::descend(double steadiness) {
   const std::size_t n = shapes_.size();
-  // What each shape could still explain; kept up with every weight that changes, and most do not.
-  const auto take = [&](std::size_t i, double weight) {
-    for (std::size_t j = 0; j < n; ++j) left_[j] -= gram_[i * n + j] * weight;
-  };
-  for (std::size_t i = 0; i < n; ++i) take(i, weights_[i]);
-  for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
-    double largest = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      const double own = gram_[i * n + i];
-      if (own <= 0) continue;  // the frame has none of its FAPs: it stays as it is
-      const double alone = left_[i] + own * weights_[i];
-      const double best =
-          std::clamp(alone / (own + costs_[i] * (ridge_ + steadiness)), 0.0, highs_[i]);
-      const double change = best - weights_[i];
-      if (change == 0) continue;
-      largest = std::max(largest, std::abs(change));
-      weights_[i] = best;
-      take(i, change);
-    }
-    if (largest < kStill) return;
+  matrix_ = gram_;
+  for (std::size_t i = 0; i < n; ++i) {
+    double& own = matrix_[i * n + i];
+    if (own > 0) own += costs_[i] * (ridge_ + steadiness);
   }
+  solver_.solve(matrix_, left_, highs_, weights_);
 }
 
 // What the weights leave of the face, as a share of it.

@@ -2,14 +2,11 @@
 
 #include <algorithm>
 
-#include "fap/detail/arkit_sparsity.h"
-#include "fap/detail/bounded_fit.h"
+#include "fap/detail/face_fit.h"
 
 namespace animeme::fap {
 namespace {
 
-// Of the eyeball, in the units of the fit: a gaze that is off is seen as lips that are off are.
-constexpr double kEyeRadius = 1.2;
 // Teeth that show in a P are seen at once. On the built-in woman with ARKit's shapes the lips of
 // one sentence stay apart in closures by 1.4 mm at 0, 1.0 at 3, 0.8 at 6, where a head that has
 // visemes alone shows some of them at less than half their weight.
@@ -37,22 +34,22 @@ internal::Lips lips_of(const LipMeasures& measures) {
 }  // namespace
 
 struct ShapeFitter::Impl {
-  internal::BoundedFit fit;
+  internal::FaceFit fit;
 };
 
 ShapeFitter::ShapeFitter(std::span<const Frame> shapes, const LipMeasures& lips, double ridge,
                          std::span<const std::optional<int>> arkit)
-    : impl_(new Impl{{weights_of(shapes), ridge, 0, std::numeric_limits<double>::infinity(),
-                      kEyeRadius, lips_of(lips)}}) {
-  if (arkit.size() == shapes.size()) impl_->fit.set_sparsity(internal::sparsity_of(arkit, 1));
-}
+    : impl_(new Impl{{weights_of(shapes),
+                      arkit.size() == shapes.size() ? arkit : std::span<const std::optional<int>>(),
+                      {ridge, 0, arkit.size() == shapes.size() ? 1.0 : 0.0},
+                      lips_of(lips)}}) {}
 ShapeFitter::ShapeFitter(ShapeFitter&&) noexcept = default;
 ShapeFitter& ShapeFitter::operator=(ShapeFitter&&) noexcept = default;
 ShapeFitter::~ShapeFitter() = default;
 
 const std::vector<double>& ShapeFitter::fit(const Frame& frame) {
   impl_->fit.restart();
-  return impl_->fit.fit(frame.mask, internal::target_of(frame));
+  return impl_->fit.fit(frame, internal::target_of(frame));
 }
 
 }  // namespace animeme::fap

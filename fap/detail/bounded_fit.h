@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "fap/detail/bounded_solver.h"
 #include "fap/detail/lips.h"
 #include "fap/frame.h"
 
@@ -53,8 +54,8 @@ FapValues target_of(const Frame& frame);
 
 /// Frame by frame: weights from 0 to 1 that make the sum of squares smallest, over the FAPs of a
 /// mask, in lengths on a face of usual proportions (lids count three times, so that closed eyes are
-/// closed, the width of the mouth one and a half times). By coordinate descent from the weights of
-/// the frame before, in the order of the shapes: the same input gives the same weights everywhere.
+/// closed, the width of the mouth one and a half times). The same input gives the same weights
+/// everywhere.
 class BoundedFit {
  public:
   /// `ridge`: what it costs to use a shape, as a share of what it does to the face. `steadiness`:
@@ -98,10 +99,13 @@ class BoundedFit {
   std::vector<double> gram_;        // shapes x shapes, for mask_
   std::vector<double> fap_gram_;    // of close_lips(): what gram_ is without measured lips
   std::vector<double> costs_;       // of shapes: what they do, lips not counted
-  std::vector<double> left_;        // of the descent
+  std::vector<double> left_;        // what descend() is to explain
+  std::vector<double> matrix_;      // gram_ with what weights cost
   std::vector<double> highs_;       // what the weights may be
   std::vector<double> wanted_;      // of fit(), here so that no frame needs memory
   std::vector<double> scratch_;     // of choose_few() and close_lips(), likewise
+
+  BoundedSolver solver_;
 
   Mask mask_;
   bool has_gram_ = false;

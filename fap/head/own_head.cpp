@@ -47,7 +47,7 @@ class Assembler {
     if (auto error = bring_to_size()) return std::move(*error);
     fill_parts();
     if (head_.part(Part::skin).triangles.empty()) {
-      return bad("there is no skin mesh: name it head or face");
+      return bad("there is no skin mesh: name it head or face" + taken_for_others());
     }
     head_.name = source_.name;
     head_.shapes = std::move(source_.shapes);
@@ -65,6 +65,22 @@ class Assembler {
  private:
   void say(std::string note) {
     if (notes_ != nullptr) notes_->push_back(std::move(note));
+  }
+
+  // Which meshes are no skin, by which words: "; \"Body\" (material \"Top\") is not, for the word
+  // \"top\"".
+  std::string taken_for_others() const {
+    constexpr std::size_t kMost = 4;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(kMost, source_.pieces.size()); ++i) {
+      const Piece& piece = source_.pieces[i];
+      const std::string_view word = word_of_part(piece.name, piece.material);
+      if (word.empty()) continue;
+      text += (text.empty() ? "; not skin: mesh \"" : ", mesh \"") + piece.name + "\"";
+      if (!piece.material.empty()) text += " with material \"" + piece.material + "\"";
+      text += " for the word \"" + std::string(word) + "\"";
+    }
+    return text;
   }
 
   std::optional<Vec3> eye_point(std::size_t side) const {

@@ -34,6 +34,7 @@ struct Piece {
   Mesh mesh;             ///< colours and occlusion may be empty, colours also kNoColour
   /// For each vertex: 1 turns with the head, 0 stays with the body. Empty: by height.
   std::vector<float> neck_weights;
+  bool face = false;  ///< skin, whatever it is called: its shapes move lips and lids
 };
 
 /// The vertex of a feature point.
@@ -75,13 +76,17 @@ struct Source {
   std::vector<std::string> notes;
 };
 
-/// The part of a piece, by the words in its names ("Wolf3D_Teeth", "M_ScleraLeft", "eyelashes"):
+/// The part of a piece, by the words in its names ("Wolf3D_Teeth", "M_ScleraLeft", "eyelashes"),
+/// not by what is within other words (Christopher is no top):
 /// eyes, teeth and gums, tongue, hair (also hats and glasses), brows, lashes, body (clothes);
 /// anything else is skin. nullopt: it should not be shown, such as the wet layer of an eye (cornea,
 /// occlusion, tear line), which would hide what is behind it unless it is transparent. If the name
 /// does not distinguish left and right eye, or upper and lower teeth, the result is left_eye or
 /// lower_teeth; assemble() then uses the positions of the vertices.
 std::optional<Part> part_by_name(std::string_view name, std::string_view material);
+
+/// The word that part_by_name() goes by ("body"); empty: none.
+std::string_view word_of_part(std::string_view name, std::string_view material);
 
 /// The colour of a mesh with this name if nothing else is known; kNoColour for parts of one colour.
 /// Linear RGB.

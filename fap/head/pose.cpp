@@ -203,9 +203,67 @@ bool show_own_visemes(const Rig& rig, fap::Frame& frame, ControlValues& values) 
 
 }  // namespace
 
+namespace {
+
+// A fitter for the shapes of a rig. Making one takes as long as fitting a frame, and rigs are
+// values that may be changed and copied: it is kept for as long as the next rig has the same
+// shapes.
+class KeptFitter {
+ public:
+  const std::vector<double>& fit(const Rig& rig, const fap::Frame& frame) {
+    if (!fitter_ || !is_of(rig)) {
+      shapes_.clear();
+      channels_.clear();
+      for (const ShapeControl& shape : rig.shapes) {
+        shapes_.push_back(shape.faps);
+        channels_.push_back(shape.arkit);
+      }
+      lips_ = rig.lip_measures;
+      fitter_.emplace(shapes_, lips_, 0.001, channels_);
+    }
+    return fitter_->fit(frame);
+  }
+
+ private:
+  bool is_of(const Rig& rig) const {
+    if (rig.shapes.size() != shapes_.size() || rig.lip_measures.at_rest != lips_.at_rest ||
+        rig.lip_measures.closing != lips_.closing) {
+      return false;
+    }
+    for (std::size_t i = 0; i < shapes_.size(); ++i) {
+      const ShapeControl& shape = rig.shapes[i];
+      if (shape.arkit != channels_[i] || shape.faps.mask != shapes_[i].mask ||
+          shape.faps.value != shapes_[i].value) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  std::vector<fap::Frame> shapes_;
+  std::vector<std::optional<int>> channels_;
+  fap::LipMeasures lips_;
+  std::optional<fap::ShapeFitter> fitter_;
+};
+
+// A gain opens the jaw further, but where the chin was not measured (FAP 14, 18 and cheeks at 0,
+// see wanted_of_shapes()) it says no more than before.
+fap::Frame opened_for_shapes(const fap::Frame& low, double gain) {
+  fap::Frame wide = fap::open_wider(low, gain);
+  for (const std::size_t f : {14, 18, 39, 40, 41, 42}) {
+    if (low.value[f] == 0) wide.value[f] = 0;
+  }
+  return wide;
+}
+
+}  // namespace
+
 ControlValues control_values(const Rig& rig, const fap::Frame& frame, const PoseOptions& options) {
   fap::Frame low = low_level(frame);
-  if (rig.mouth_gain != 1) low = fap::open_wider(low, rig.mouth_gain);
+  if (rig.mouth_gain != 1) {
+    low = rig.shapes.empty() ? fap::open_wider(low, rig.mouth_gain)
+                             : opened_for_shapes(low, rig.mouth_gain);
+  }
   if (options.follow) lids_follow_gaze(rig, low);
   ControlValues values(kFirstShape + rig.shapes.size());
   for (std::size_t f = fap::kFirstLowLevel; f <= fap::kFapCount; ++f) {
@@ -214,16 +272,16 @@ ControlValues control_values(const Rig& rig, const fap::Frame& frame, const Pose
   if (rig.shapes.empty()) return values;
   fap::Frame rest = frame;
   if (show_own_visemes(rig, rest, values)) low = low_level(rest);
-  std::vector<fap::Frame> shapes;
-  std::vector<std::optional<int>> channels;
-  for (const ShapeControl& shape : rig.shapes) {
-    shapes.push_back(shape.faps);
-    channels.push_back(shape.arkit);
-  }
   static const std::optional<int> kJaw = fap::find_arkit("jawOpen");
-  const bool cheeks_follow = std::find(channels.begin(), channels.end(), kJaw) != channels.end();
-  fap::ShapeFitter fitter(shapes, rig.lip_measures, 0.001, channels);
-  const std::vector<double>& weights = fitter.fit(wanted_of_shapes(low, cheeks_follow));
+  const bool cheeks_follow =
+      std::any_of(rig.shapes.begin(), rig.shapes.end(),
+                  [](const ShapeControl& shape) { return shape.arkit == kJaw; });
+#ifdef __wasm__  // one thread, and nothing that ends it
+  static KeptFitter& fitter = *new KeptFitter;
+#else
+  thread_local KeptFitter fitter;
+#endif
+  const std::vector<double>& weights = fitter.fit(rig, wanted_of_shapes(low, cheeks_follow));
   for (std::size_t i = 0; i < weights.size(); ++i) {
     values[kFirstShape + i] =
         std::min(values[kFirstShape + i] + float(weights[i]) * kFullShape, kFullShape);

@@ -16,32 +16,136 @@ bool has_any(std::string_view text, std::initializer_list<std::string_view> word
   });
 }
 
-// One name; nothing: it says nothing. kPartCount: not to be shown.
-std::optional<int> part_by_word(const std::string& name) {
-  if (has_any(name, {"occlusion", "lacrimal", "cornea", "tear", "eyeblend", "eyeshadow", "eyewet"}))
-    return kPartCount;
-  if (has_any(name, {"lash", "eyeline"})) return int(Part::lashes);
-  if (has_any(name, {"brow"})) return int(Part::brows);
-  if (has_any(name, {"eyelid", "eyesocket", "eye_socket"})) return int(Part::skin);
+// Words of a name in lower case: parted where a capital follows a small letter, and at what is
+// neither a letter nor a digit.
+std::vector<std::string> words_of(std::string_view name) {
+  std::vector<std::string> words;
+  char before = '_';
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const char c = name[i];
+    const bool capital = c >= 'A' && c <= 'Z';
+    const bool letter = capital || (c >= 'a' && c <= 'z') || (c & 0x80) != 0;
+    const bool after_letter = (before >= 'a' && before <= 'z') ||
+                              (before >= 'A' && before <= 'Z') || (before & 0x80) != 0;
+    const bool small_before = before >= 'a' && before <= 'z';
+    const bool next_small = i + 1 < name.size() && name[i + 1] >= 'a' && name[i + 1] <= 'z';
+    const bool part = capital && (small_before || (after_letter && next_small));
+    if (letter && (!after_letter || part)) words.emplace_back();
+    if (letter) words.back() += capital ? char(c - 'A' + 'a') : c;
+    before = c;
+  }
+  return words;
+}
+
+// What stands beside the words for parts where they are written as one ("upperteeth", "hairback").
+constexpr std::string_view kBeside[] = {
+    "left",   "right",  "upper",   "lower", "inner",    "outer",  "front", "back",  "top",
+    "bottom", "up",     "low",     "l",     "r",        "t",      "s",     "es",    "mesh",
+    "mat",    "geo",    "obj",     "main",  "base",     "full",   "card",  "cards", "long",
+    "short",  "wear",   "ball",    "balls", "line",     "lines",  "lid",   "lids",  "cap",
+    "cut",    "style",  "tex",     "poly",  "material", "shadow", "wet",   "white", "whites",
+    "and",    "socket", "sockets", "model", "group",    "grp"};
+// What tells a part of a head, and what is longer is found within other words.
+constexpr std::string_view kParts[] = {
+    "hair",   "beard", "hat",    "helmet",  "horn",   "horns", "gum",   "gums", "eye",   "eyes",
+    "iris",   "brow",  "brows",  "lash",    "lashes", "tear",  "tears", "top",  "tops",  "shoe",
+    "shoes",  "hand",  "hands",  "head",    "face",   "skin",  "neck",  "body", "tooth", "teeth",
+    "tongue", "pupil", "bottom", "bottoms", "cloth",  "shirt", "torso"};
+constexpr std::size_t kTelling = 5;  // letters of a word that is found within others
+
+// Whether a word consists of words for parts, and what stands beside them.
+bool is_compound(std::string_view word, bool first = true) {
+  if (word.empty()) return !first;
+  const auto begins = [&](std::string_view part) {
+    return word.starts_with(part) && is_compound(word.substr(part.size()), false);
+  };
+  return std::any_of(std::begin(kParts), std::end(kParts), begins) ||
+         std::any_of(std::begin(kBeside), std::end(kBeside), begins);
+}
+
+// Whether a name has one of these words: a long one anywhere, a short one ("hat", "iris") as a word
+// or a part of a compound, since it also is within others (Chatbot, Christopher).
+class NameWords {
+ public:
+  explicit NameWords(std::string_view name) : text_(lower_case(name)), words_(words_of(name)) {}
+
+  // The word that is there; empty: none.
+  std::string_view find(std::initializer_list<std::string_view> wanted) const {
+    for (const std::string_view word : wanted) {
+      if (has(word)) return word;
+    }
+    return {};
+  }
+  bool any(std::initializer_list<std::string_view> wanted) const { return !find(wanted).empty(); }
+  bool ends_with(std::string_view ending) const { return text_.ends_with(ending); }
+
+ private:
+  bool has(std::string_view wanted) const {
+    if (wanted.size() > kTelling || wanted.find('_') != std::string_view::npos) {
+      return text_.find(wanted) != std::string::npos;
+    }
+    return std::any_of(words_.begin(), words_.end(), [&](const std::string& word) {
+      const std::size_t at = word.find(wanted);
+      return at != std::string::npos && (word == wanted || is_compound(word));
+    });
+  }
+
+  std::string text_;
+  std::vector<std::string> words_;
+};
+
+// What a name says, and by which word. kPartCount: not to be shown.
+struct Told {
+  int part;
+  std::string_view word;
+};
+
+std::optional<Told> part_by_word(std::string_view given) {
+  const NameWords name(given);
+  const auto told = [](int part, std::string_view word) { return Told{part, word}; };
+  if (const auto word = name.find({"occlusion", "lacrimal", "cornea", "tear", "tearline",
+                                   "eyeblend", "eyeshadow", "eyewet"});
+      !word.empty()) {
+    return told(kPartCount, word);
+  }
+  if (const auto word = name.find({"lash", "lashes", "eyelash", "eyeline"}); !word.empty()) {
+    return told(int(Part::lashes), word);
+  }
+  if (const auto word = name.find({"brow", "brows", "eyebrow"}); !word.empty()) {
+    return told(int(Part::brows), word);
+  }
+  if (const auto word = name.find({"eyelid", "eyesocket", "eye_socket"}); !word.empty()) {
+    return told(int(Part::skin), word);
+  }
   // "eyewear" and "glasses" sit on the head.
-  if (has_any(name, {"hair", "beard", "moustache", "hat", "helmet", "glasses", "eyewear",
-                     "headwear", "earring", "horn"}) &&
-      !has_any(name, {"hatch"})) {
-    return int(Part::hair);
+  if (const auto word =
+          name.find({"hair", "haircut", "hairstyle", "ponytail", "beard", "moustache", "mustache",
+                     "hat", "helmet", "glasses", "eyewear", "headwear", "earring", "horn"});
+      !word.empty()) {
+    return told(int(Part::hair), word);
   }
-  if (has_any(name, {"tongue"}) && !has_any(name, {"gum", "teeth"})) return int(Part::tongue);
-  if (has_any(name, {"teeth", "tooth", "gum", "denture"})) {
-    return int(has_any(name, {"upper", "_top", "top_"}) ? Part::upper_teeth : Part::lower_teeth);
+  if (const auto word = name.find({"tongue"});
+      !word.empty() && !name.any({"gum", "gums", "teeth"})) {
+    return told(int(Part::tongue), word);
   }
-  if (has_any(name, {"eye", "sclera", "iris", "pupil"})) {
-    const bool right = has_any(name, {"right"}) || name.ends_with("_r") || name.ends_with(".r");
-    return int(right ? Part::right_eye : Part::left_eye);
+  if (const auto word = name.find({"teeth", "tooth", "gum", "gums", "denture"}); !word.empty()) {
+    return told(int(name.any({"upper", "_top", "top_"}) ? Part::upper_teeth : Part::lower_teeth),
+                word);
   }
-  if (has_any(name, {"body", "shirt", "cloth", "torso", "outfit", "shoulder", "jacket", "top",
-                     "bottom", "shoe", "hand", "footwear"})) {
-    return int(Part::body);
+  if (const auto word = name.find({"eye", "eyes", "eyeball", "sclera", "iris", "pupil", "pupils"});
+      !word.empty()) {
+    const bool right = name.any({"right"}) || name.ends_with("_r") || name.ends_with(".r");
+    return told(int(right ? Part::right_eye : Part::left_eye), word);
   }
-  if (has_any(name, {"head", "face", "skin", "neck"})) return int(Part::skin);
+  if (const auto word = name.find({"body", "shirt", "cloth", "clothes", "clothing", "torso",
+                                   "outfit", "shoulder", "jacket", "top", "bottom", "shoe", "hand",
+                                   "hands", "footwear", "trousers", "pants", "dress"});
+      !word.empty()) {
+    return told(int(Part::body), word);
+  }
+  if (const auto word = name.find({"head", "face", "skin", "neck"}); !word.empty()) {
+    return told(int(Part::skin), word);
+  }
   return std::nullopt;
 }
 
@@ -49,18 +153,26 @@ std::optional<int> part_by_word(const std::string& name) {
 
 std::optional<Part> part_by_name(std::string_view name, std::string_view material) {
   // Brows and lashes often share the material of the hair.
-  const std::optional<int> hairs = part_by_word(lower_case(name));
-  if (hairs == int(Part::brows) || hairs == int(Part::lashes)) {
-    if (part_by_word(lower_case(material)) == int(Part::hair)) return Part(*hairs);
+  const auto hairs = part_by_word(name);
+  if (hairs && (hairs->part == int(Part::brows) || hairs->part == int(Part::lashes))) {
+    const auto own = part_by_word(material);
+    if (own && own->part == int(Part::hair)) return Part(hairs->part);
   }
   // The material is the finer division: one object often has the skin and the eyes.
-  for (const std::string& text : {lower_case(material), lower_case(name)}) {
-    const std::optional<int> found = part_by_word(text);
+  for (const std::string_view text : {material, name}) {
+    const auto found = part_by_word(text);
     if (!found) continue;
-    if (*found == kPartCount) return std::nullopt;
-    return Part(*found);
+    if (found->part == kPartCount) return std::nullopt;
+    return Part(found->part);
   }
   return Part::skin;
+}
+
+std::string_view word_of_part(std::string_view name, std::string_view material) {
+  for (const std::string_view text : {material, name}) {
+    if (const auto found = part_by_word(text)) return found->word;
+  }
+  return {};
 }
 
 Vec3 colour_by_name(std::string_view name, std::string_view material) {
@@ -96,7 +208,8 @@ std::vector<std::uint32_t> bodies_of(const Mesh& mesh) {
 
 std::vector<std::uint8_t> parts_of(const Piece& piece, float middle, float mouth) {
   const std::size_t count = piece.mesh.positions.size();
-  const std::optional<Part> part = part_by_name(piece.name, piece.material);
+  const std::optional<Part> part =
+      piece.face ? Part::skin : part_by_name(piece.name, piece.material);
   // Lashes are mostly cards of which a texture leaves hairs alone: as solid cards they disturb.
   const bool card = part == Part::lashes &&
                     (piece.mesh.colours.size() != count || piece.mesh.colours[0] == kNoColour);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "fap/arkit.h"
@@ -8,6 +9,8 @@
 
 namespace animeme::gltf {
 namespace {
+
+constexpr std::size_t kMouthShapes = 6;  // of ARKit's, with a jaw: they make a mouth
 
 std::string_view arkit_name(const ArkitPart& part) {
   return fap::kArkitNames[std::size_t(part.channel)];
@@ -47,7 +50,7 @@ bool has_arkit_mouth(const std::vector<ChosenShape>& shapes) {
     mouth += name.starts_with("mouth");
     jaw = jaw || name == "jawOpen";
   }
-  return jaw && mouth >= 6;
+  return jaw && mouth >= int(kMouthShapes);
 }
 
 std::string list_of(const std::vector<std::string>& names) {
@@ -60,31 +63,85 @@ std::string list_of(const std::vector<std::string>& names) {
   return text;
 }
 
-// Names that mean the same are one shape.
+using MeaningKey = std::tuple<int, int, std::vector<ArkitPart>>;
+
+MeaningKey key_of(const ShapeMeaning& meaning) {
+  return {meaning.viseme, meaning.mood, meaning.parts};
+}
+
+// Which convention a name follows: those of this file by their set, other houses by name.
+std::string house_of(const ShapeMeaning& meaning) {
+  if (!meaning.house.empty()) return std::string(meaning.house);
+  return meaning.set == ShapeSet::arkit ? "arkit" : meaning.set == ShapeSet::viseme ? "viseme" : "";
+}
+
+// How many shapes each convention has here; ARKit's count more than any other's where they have a
+// mouth.
+std::map<std::string, std::size_t> sizes_of_houses(
+    const std::vector<std::optional<ShapeMeaning>>& meanings) {
+  std::map<std::string, std::set<MeaningKey>> houses;
+  std::size_t mouth = 0;
+  bool jaw = false;
+  for (const auto& meaning : meanings) {
+    if (!meaning) continue;
+    const std::string house = house_of(*meaning);
+    const bool is_new = houses[house].insert(key_of(*meaning)).second;
+    if (house != "arkit" || !is_new) continue;
+    const std::string_view name = arkit_name(meaning->parts.front());
+    mouth += name.starts_with("mouth") ? 1 : 0;
+    jaw = jaw || name == "jawOpen";
+  }
+  std::map<std::string, std::size_t> sizes;
+  for (const auto& [house, keys] : houses) {
+    // Of two conventions that are equally full, ARKit's.
+    sizes[house] = 2 * keys.size() + (house == "arkit" ? 1 : 0);
+    if (house == "arkit" && jaw && mouth >= kMouthShapes) sizes[house] += meanings.size() * 2;
+  }
+  return sizes;
+}
+
+// Names that mean the same are one shape, whose first names are those of the fullest convention.
+// The names of other conventions are `doubled`.
 std::vector<ChosenShape> known_shapes(const std::vector<std::string>& names,
-                                      std::vector<std::string>& unknown) {
+                                      std::vector<std::string>& unknown,
+                                      std::vector<std::string>& doubled) {
+  std::vector<std::optional<ShapeMeaning>> meanings;
+  for (const std::string& name : names) {
+    meanings.push_back(meaning_of(name));
+    if (!meanings.back()) unknown.push_back(name);
+  }
+  std::map<std::string, std::size_t> sizes = sizes_of_houses(meanings);
   std::vector<ChosenShape> shapes;
-  std::map<std::tuple<int, int, std::vector<ArkitPart>>, std::size_t> known;
+  std::map<MeaningKey, std::size_t> known;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    std::optional<ShapeMeaning> meaning = meaning_of(names[i]);
-    if (!meaning) {
-      unknown.push_back(names[i]);
-      continue;
-    }
-    const auto [place, is_new] =
-        known.try_emplace({meaning->viseme, meaning->mood, meaning->parts}, shapes.size());
-    if (is_new) shapes.push_back({names[i], std::move(*meaning), {}});
+    if (!meanings[i]) continue;
+    const auto [place, is_new] = known.try_emplace(key_of(*meanings[i]), shapes.size());
+    if (is_new) shapes.emplace_back();
     shapes[place->second].names.push_back(i);
+  }
+  for (ChosenShape& shape : shapes) {
+    const auto size = [&](std::size_t name) { return sizes[house_of(*meanings[name])]; };
+    std::stable_sort(shape.names.begin(), shape.names.end(),
+                     [&](std::size_t a, std::size_t b) { return size(a) > size(b); });
+    const std::size_t first = shape.names.front();
+    shape.name = names[first];
+    shape.meaning = *meanings[first];
+    for (const std::size_t name : shape.names) {
+      if (house_of(*meanings[name]) != house_of(shape.meaning)) doubled.push_back(names[name]);
+    }
   }
   return shapes;
 }
 
 // Takes out other names for what shapes of ARKit, or names for fewer of them, do.
 void drop_doubles(std::vector<ChosenShape>& shapes, std::vector<std::string>& unused) {
-  std::map<int, int> taken;  // sides by channel
+  std::map<int, int> taken;  // quarters by channel: left and right of the upper and the lower lip
+  const auto quarters = [](const ArkitPart& part) {
+    return (part.lips & 1 ? part.sides : 0) | (part.lips & 2 ? part.sides << 2 : 0);
+  };
   const auto free = [&](const ShapeMeaning& meaning) {
     return std::all_of(meaning.parts.begin(), meaning.parts.end(), [&](const ArkitPart& part) {
-      return (taken[part.channel] & part.sides) == 0;
+      return (taken[part.channel] & quarters(part)) == 0;
     });
   };
   std::vector<bool> keep(shapes.size(), false);
@@ -92,13 +149,13 @@ void drop_doubles(std::vector<ChosenShape>& shapes, std::vector<std::string>& un
     for (std::size_t i = 0; i < shapes.size(); ++i) {
       const ShapeMeaning& meaning = shapes[i].meaning;
       if (meaning.mood > 0) keep[i] = true;
-      if (meaning.mood > 0 || meaning.set != set || (parts > 0 && meaning.parts.size() != parts))
-        continue;
+      if (keep[i] || meaning.set != set || (parts > 0 && meaning.parts.size() != parts)) continue;
       keep[i] = free(meaning);
       if (!keep[i]) continue;
-      for (const ArkitPart& part : meaning.parts) taken[part.channel] |= part.sides;
+      for (const ArkitPart& part : meaning.parts) taken[part.channel] |= quarters(part);
     }
   };
+  take(ShapeSet::arkit, 1);
   take(ShapeSet::arkit, 0);
   for (std::size_t parts = 1; parts <= 3; ++parts) take(ShapeSet::other, parts);
   take(ShapeSet::viseme, 0);
@@ -118,7 +175,8 @@ void drop_doubles(std::vector<ChosenShape>& shapes, std::vector<std::string>& un
 head::ShapeControl control_of(const ChosenShape& shape) {
   const ShapeMeaning& meaning = shape.meaning;
   head::ShapeControl control{shape.name, meaning.faps};
-  const bool whole = meaning.parts.size() == 1 && meaning.parts.front().sides == 3;
+  const bool whole = meaning.parts.size() == 1 && meaning.parts.front().sides == 3 &&
+                     meaning.parts.front().lips == 3;
   if (meaning.viseme > 0) control.viseme = meaning.viseme;
   if (meaning.mood > 0) control.arkit = fap::kWholeFace;
   if (meaning.set == ShapeSet::arkit && whole) control.arkit = meaning.parts.front().channel;
@@ -129,7 +187,7 @@ std::vector<ChosenShape> choose_shapes(const std::vector<std::string>& names, Mo
                                        std::vector<std::string>& notes) {
   std::vector<std::string> unknown;
   std::vector<std::string> unused;
-  std::vector<ChosenShape> shapes = known_shapes(names, unknown);
+  std::vector<ChosenShape> shapes = known_shapes(names, unknown, unused);
   const bool any_viseme = std::any_of(shapes.begin(), shapes.end(), [](const ChosenShape& shape) {
     return shape.meaning.set == ShapeSet::viseme;
   });

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include "fap/arkit.h"
 #include "fap/detail/text_scanner.h"
 #include "fap/head/shapes.h"
 #include "fap/tables.h"
+#include "tools/view/gltf/detail/house_names.h"
 #include "tools/view/gltf/detail/words.h"
 
 namespace animeme::gltf {
@@ -20,7 +22,7 @@ constexpr int kLeft = 1, kRight = 2, kBoth = 3;
 bool is_prefix(const std::string& word) {
   constexpr std::string_view kKnown =
       " blendshape blend shape shapes bs arkit ar kit ak face head ctrl expressions morph morpher "
-      "mesh wolf3d fcl expression facial key target bshp ";
+      "mesh wolf3d fcl expression facial key target bshp facs ectrl pctrl cc ";
   if (kKnown.find(" " + word + " ") != std::string_view::npos) return true;
   // Numbers, and letters with numbers: "09", "a14".
   return !word.empty() &&
@@ -35,15 +37,24 @@ std::vector<std::vector<std::string>> readings_of(std::string_view name) {
     std::vector<std::string> words = words_of(part);
     for (;;) {
       readings.push_back(words);
+      // What Daz and Autodesk put behind: "facs_bs_JawOpen_div2", "h_expressions.Kiss_h".
+      std::vector<std::string> front = words;
+      if (front.size() > 2 && front[front.size() - 2] == "div") front.pop_back();
+      if (front.size() > 1 && (front.back() == "div" || front.back() == "h")) {
+        front.pop_back();
+        readings.push_back(front);
+      }
       if (words.empty() || !is_prefix(words.front())) return;
       words.erase(words.begin());
     }
   };
   add(name);
-  for (const char mark : {'.', ':', '|'}) {
+  for (const std::string_view mark : {".", ":", "|", "__"}) {
     const std::size_t at = name.rfind(mark);
-    if (at != std::string_view::npos) add(name.substr(at + 1));
+    if (at != std::string_view::npos) add(name.substr(at + mark.size()));
   }
+  const std::size_t daz = name.find("CTRL");  // eCTRLvAA, pCTRLMouthOpen
+  if (daz != std::string_view::npos && daz <= 1) add(name.substr(daz + 4));
   const std::size_t vroid = name.find("Fcl_");
   if (vroid != std::string_view::npos) add(name.substr(vroid + 4));
   return readings;
@@ -173,6 +184,22 @@ fap::Frame half_of(const fap::Frame& whole, int side) {
   return half;
 }
 
+// What a shape does to one lip, and half of what it does between them.
+fap::Frame lip_of(const fap::Frame& whole, int lip) {
+  constexpr int kUpper[] = {4, 8, 9, 17, 51, 55, 56}, kLower[] = {5, 10, 11, 16, 52, 57, 58, 18};
+  const auto has = [](std::span<const int> list, int fap) {
+    return std::find(list.begin(), list.end(), fap) != list.end();
+  };
+  fap::Frame part;
+  for (int fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
+    const std::int32_t value = whole.value[std::size_t(fap)];
+    const bool upper = has(kUpper, fap), lower = has(kLower, fap);
+    if (!upper && !lower) part.set(fap, value / 2);
+    if ((upper && lip == 1) || (lower && lip == 2)) part.set(fap, value);
+  }
+  return part;
+}
+
 fap::Frame faps_of(const std::vector<ArkitPart>& parts) {
   fap::Frame sum;
   for (const ArkitPart& part : parts) {
@@ -180,6 +207,7 @@ fap::Frame faps_of(const std::vector<ArkitPart>& parts) {
     weights[std::size_t(part.channel)] = 1;
     fap::Frame frame = fap::arkit_to_fap(weights, fap::kAllArkit);
     if (part.sides != kBoth) frame = half_of(frame, part.sides);
+    if (part.lips != kBoth) frame = lip_of(frame, part.lips);
     for (int fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
       const std::int32_t value = frame.value[std::size_t(fap)];
       if (value != 0) sum.set(fap, sum.value[std::size_t(fap)] + value);
@@ -204,6 +232,14 @@ std::optional<ShapeMeaning> meaning_of(std::string_view name) {
     if (meaning.parts.empty()) {
       meaning.set = ShapeSet::viseme;
       meaning.viseme = viseme_of(words);
+    }
+    if (meaning.parts.empty() && meaning.viseme < 0) {
+      if (const HouseName* known = find_house_name(key)) {
+        meaning.set = known->viseme >= 0 ? ShapeSet::viseme : ShapeSet::arkit;
+        meaning.viseme = known->viseme;
+        meaning.parts = known->parts;
+        meaning.house = known->house;
+      }
     }
     if (meaning.parts.empty() && meaning.viseme < 0) {
       meaning.set = ShapeSet::other;

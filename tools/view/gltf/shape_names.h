@@ -24,6 +24,7 @@ enum class ShapeSet : std::uint8_t { arkit, viseme, other };
 struct ArkitPart {
   int channel = 0;  ///< see fap::kArkitNames
   int sides = 3;    ///< 1 left half, 2 right half, 3 both
+  int lips = 3;     ///< 1 what it does to the upper lip, 2 to the lower one, 3 both
 
   friend auto operator<=>(const ArkitPart&, const ArkitPart&) = default;
 };
@@ -34,6 +35,7 @@ struct ShapeMeaning {
   int viseme = -1;                 ///< of a viseme
   int mood = 0;                    ///< of a whole face: expression 1..6 of FAP 2; 7: a calm smile
   std::vector<ArkitPart> parts;    ///< of the others, ascending
+  std::string_view house = {};     ///< a convention beside ARKit's; see detail/house_names.h
   /// At weight 1: the sum of fap::arkit_to_fap() of the parts; for a viseme head::viseme_shape(),
   /// so that FAP 1 at full strength is weight 1.
   fap::Frame faps;
@@ -47,7 +49,9 @@ struct ShapeMeaning {
 /// eyesClosed, winks, mouthOpen, smile, gaze up, down, left, right, brows up and down, the brows of
 /// VRoid (BRW_Angry ...) and MMD; the vowels A I U E O of VRM, VRoid and MMD are visemes; joy,
 /// angry, sorrow, fun, surprised of VRM 0.x and VRoid (ALL_Joy ...), happy, sad and relaxed of VRM
-/// 1.0 are moods.
+/// 1.0 are moods. Names of Character Creator, Unified Expressions, SRanipal, Faceshift, Daz,
+/// Autodesk's Character Generator (VALID) and MakeHuman: detail/house_names.h. What stands before
+/// the name proper may be any words that end in ".", ":", "|" or "__".
 std::optional<ShapeMeaning> meaning_of(std::string_view name);
 
 /// A shape that a head uses.
@@ -62,7 +66,9 @@ head::ShapeControl control_of(const ChosenShape& shape);
 
 /// Selects the shapes that move a head: first those of ARKit. If ARKit's jaw and mouth are complete
 /// (see MouthShapes), visemes have no FAPs and are used for FAP 1 only. Other names are used only
-/// for what no ARKit shape does. Unknown and unused shapes are noted.
+/// for what no ARKit shape does. Of several names that mean the same, that of the convention with
+/// the most shapes counts, ARKit's if it has a mouth, and the others are its further names: for
+/// meshes that have only those. Unknown and unused shapes are noted.
 std::vector<ChosenShape> choose_shapes(const std::vector<std::string>& names, MouthShapes mouth,
                                        std::vector<std::string>& notes);
 

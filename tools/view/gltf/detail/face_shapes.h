@@ -32,8 +32,16 @@ struct Spot {
 };
 
 inline std::optional<head::Part> part_of(const RawPiece& piece) {
+  if (piece.face) return head::Part::skin;
   return head::part_by_name(piece.name, piece.paint->name);
 }
+
+/// If no piece that is skin by its name has shapes that move lips and lids, marks those that have
+/// (RawPiece::face), whatever they are called: both at least a third as far as any piece. If no
+/// piece is skin by its name or so, it is what the mouth's shapes move and no name of teeth or
+/// tongue is on.
+void mark_faces(std::vector<RawPiece>& pieces, const std::vector<ChosenShape>& shapes,
+                const std::vector<std::size_t>& shape_of_name);
 
 /// Looks at the pieces that are skin. A shape is given by its index; kNone moves nothing.
 class SkinShapes {

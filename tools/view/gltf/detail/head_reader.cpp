@@ -1,6 +1,7 @@
 #include "tools/view/gltf/detail/head_reader.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "tools/view/gltf/detail/paint.h"
@@ -43,13 +44,19 @@ class HeadReader {
     if (pieces_.empty()) {
       return make_error(Code::not_found, "there is no triangle to show in the file");
     }
-    join_primitives();
-    for (RawPiece& piece : pieces_) weld(piece);
     shapes_ = choose_shapes(names.names(), options_.mouth, source_.notes);
     shape_of_name_.assign(names.names().size(), kNone);
+    rank_of_name_.assign(names.names().size(), 0);
     for (std::size_t i = 0; i < shapes_.size(); ++i) {
-      for (const std::size_t name : shapes_[i].names) shape_of_name_[name] = i;
+      for (std::size_t rank = 0; rank < shapes_[i].names.size(); ++rank) {
+        shape_of_name_[shapes_[i].names[rank]] = i;
+        rank_of_name_[shapes_[i].names[rank]] = rank;
+      }
     }
+    for (RawPiece& piece : pieces_) drop_further_names(piece);
+    mark_faces(pieces_, shapes_, shape_of_name_);
+    join_primitives();
+    for (RawPiece& piece : pieces_) weld(piece);
     place_joints(*nodes);
     turn_upright();
     source_.points = guess_points({pieces_, shapes_, shape_of_name_});
@@ -81,15 +88,29 @@ class HeadReader {
     }
   }
 
+  // Of several names of one shape in a piece the preferred one shows it: all of them would add up.
+  void drop_further_names(RawPiece& piece) const {
+    std::map<std::size_t, std::size_t> best;  // rank by shape
+    for (const PieceMorph& morph : piece.morphs) {
+      const std::size_t shape = shape_of_name_[morph.shape];
+      if (shape == kNone) continue;
+      const auto [place, is_new] = best.try_emplace(shape, rank_of_name_[morph.shape]);
+      if (!is_new) place->second = std::min(place->second, rank_of_name_[morph.shape]);
+    }
+    std::erase_if(piece.morphs, [&](const PieceMorph& morph) {
+      const std::size_t shape = shape_of_name_[morph.shape];
+      return shape != kNone && rank_of_name_[morph.shape] > best[shape];
+    });
+  }
+
   // Programs cut a mesh where its material changes; the light on the skin should not. Other parts
   // stay apart: the name of their material identifies them.
   void join_primitives() {
     std::vector<RawPiece> joined;
     for (RawPiece& piece : pieces_) {
-      const auto part = head::part_by_name(piece.name, piece.paint->name);
+      const auto part = part_of(piece);
       const auto same = std::find_if(joined.begin(), joined.end(), [&](const RawPiece& other) {
-        return part == head::Part::skin && other.node == piece.node &&
-               head::part_by_name(other.name, other.paint->name) == part &&
+        return part == head::Part::skin && other.node == piece.node && part_of(other) == part &&
                other.neck_weights.empty() == piece.neck_weights.empty();
       });
       if (same == joined.end()) {
@@ -102,6 +123,7 @@ class HeadReader {
   }
 
   static void append(RawPiece& to, RawPiece from) {
+    to.face = to.face || from.face;
     const auto first = std::uint32_t(to.positions.size());
     to.positions.insert(to.positions.end(), from.positions.begin(), from.positions.end());
     to.colours.insert(to.colours.end(), from.colours.begin(), from.colours.end());
@@ -166,6 +188,10 @@ class HeadReader {
          {&source_.neck_pivot, &source_.jaw_axis, &source_.eyes[0], &source_.eyes[1]}) {
       if (*place) turn(**place);
     }
+    // VRM 0 looks along -Z, as it should.
+    const bool vrm = !member(file_.root, "extensions", "VRM").is_null();
+    const bool half_turn = axes_ == std::array<Vec3, 3>{Vec3{-1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
+    if (vrm && half_turn) return;
     source_.notes.push_back(
         "the head does not look along +Z with +Y up, as it should in glTF; it "
         "was turned as its shapes say");
@@ -260,6 +286,7 @@ class HeadReader {
       head::Piece out;
       out.name = std::move(piece.name);
       out.material = piece.paint->name;
+      out.face = piece.face;
       out.mesh.positions = std::move(piece.positions);
       out.mesh.triangles = std::move(piece.triangles);
       out.mesh.corners = std::move(piece.corners);
@@ -284,6 +311,7 @@ class HeadReader {
   std::vector<RawPiece> pieces_;
   std::vector<ChosenShape> shapes_;
   std::vector<std::size_t> shape_of_name_;
+  std::vector<std::size_t> rank_of_name_;  // of those of a shape; the first one is preferred
   std::vector<MeshVertices> meshes_;
   HeadJoints joints_;
   std::array<Vec3, 3> axes_ = {Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

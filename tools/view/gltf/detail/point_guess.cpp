@@ -89,10 +89,16 @@ class FaceMap {
     const Sides sides = sides_of(guess_);
     if (sides.left && sides.right) middle_ = (sides.left->x + sides.right->x) / 2;
     for (int side = 0; side < 2; ++side) {
-      const std::size_t shape = guess_.shape_for(kBlink[side], 300);
-      if (shape == kNone) continue;
-      const Spot upper =
-          guess_.farthest(shape, [&](Vec3 p, Vec3 d) { return on_side(p, side) ? -d.y : 0.0f; });
+      std::size_t shape = guess_.shape_for(kBlink[side], 300);
+      const auto lid_of = [&](std::size_t blink) {
+        return guess_.farthest(blink,
+                               [&](Vec3 p, Vec3 d) { return on_side(p, side) ? -d.y : 0.0f; });
+      };
+      Spot upper = lid_of(shape);
+      if (!upper.exists()) {  // a mirrored file
+        shape = guess_.shape_for(kBlink[1 - side], 300);
+        upper = lid_of(shape);
+      }
       if (!upper.exists()) continue;
       const auto moves = guess_.field(shape);
       const Vec3 from = place(upper);
@@ -280,13 +286,28 @@ class FaceMap {
   std::vector<std::pair<std::string_view, Spot>> spots_;
 };
 
+// How far the middle of a face lies before the skin around it, in a direction.
+float front_of(const SkinShapes& guess, Vec3 middle, Vec3 forward, float between) {
+  float sum = 0;
+  std::size_t count = 0;
+  guess.for_skin([&](Spot spot) {
+    const Vec3 d = guess.place(spot) - middle;
+    const float along = head::dot(d, forward);
+    if (head::length(d - forward * along) > between) return;
+    sum += along;
+    ++count;
+  });
+  return count > 0 ? -sum / float(count) : 0;
+}
+
 }  // namespace
 
 std::optional<std::array<Vec3, 3>> axes_of(const FaceShapes& face,
                                            const std::array<std::optional<Vec3>, 2>& eyes) {
   const SkinShapes guess(face);
   Sides sides = sides_of(guess);
-  if (!sides.left || !sides.right) sides = {eyes[0], eyes[1]};
+  const bool by_shapes = sides.left && sides.right;
+  if (!by_shapes) sides = {eyes[0], eyes[1]};
   const std::size_t jaw = guess.shape_for(kJaw, 150);
   if (!sides.left || !sides.right || jaw == kNone) return std::nullopt;
   const std::optional<Vec3> mouth = guess.centre(jaw);
@@ -295,8 +316,15 @@ std::optional<std::array<Vec3, 3>> axes_of(const FaceShapes& face,
   const Vec3 up = (*sides.left + *sides.right) * 0.5f - *mouth;
   const int x = largest(left), y = largest(up, x);
   if (part(left, x) == 0 || part(up, y) == 0) return std::nullopt;
-  const Vec3 to_left = unit(x, part(left, x) > 0 ? 1.0f : -1.0f);
+  Vec3 to_left = unit(x, part(left, x) > 0 ? 1.0f : -1.0f);
   const Vec3 to_top = unit(y, part(up, y) > 0 ? 1.0f : -1.0f);
+  const Vec3 face_middle = ((*sides.left + *sides.right) * 0.5f + *mouth) * 0.5f;
+  // In a mirrored file what is called left is on the right; the face still is where it is.
+  // (Eyeballs are too deep in the head to tell.)
+  constexpr float kClearly = 0.1f;  // of the distance of the eyes
+  const float front =
+      front_of(guess, face_middle, head::cross(to_left, to_top), head::length(left));
+  if (by_shapes && front < -kClearly * head::length(left)) to_left = to_left * -1.0f;
   return std::array<Vec3, 3>{to_left, to_top, head::cross(to_left, to_top)};
 }
 

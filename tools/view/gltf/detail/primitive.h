@@ -40,6 +40,7 @@ struct RawPiece {
   std::vector<head::Vec3> normals;  ///< fewer than positions: of those made later
   std::vector<float> neck_weights;  ///< see head::Piece
   bool on_jaw = false;              ///< some of it hangs on the jaw
+  bool face = false;                ///< see head::Piece
   std::vector<PieceMorph> morphs;   ///< by shape
   /// From add_corners() on, of heads that are drawn with their materials. Corner::vertex is the
   /// vertex.

@@ -119,6 +119,7 @@ void weld(RawPiece& piece) {
   const std::vector<std::uint32_t> first = first_alike(piece);
   const std::vector<std::uint32_t> numbers = numbers_of(piece, first);
   RawPiece out;
+  out.face = piece.face;
   out.node = piece.node;
   out.name = std::move(piece.name);
   out.paint = piece.paint;

@@ -29,8 +29,9 @@ done
 }
 
 # One unit: its parts share headers, and only the page calls it.
-for name in fap/arkit fap/arkit_table fap/arkit_sparsity fap/bounded_fit fap/expand fap/shape_fit fap/tables fap/viseme \
-  fap/wider fap/head/model fap/head/pose fap/head/vector fap/head/detail/geodesic fap/head/detail/normals \
+for name in fap/arkit fap/arkit_table fap/arkit_sparsity fap/bounded_fit fap/bounded_solver \
+  fap/exact_fit fap/expand fap/face_fit fap/shape_fit fap/tables fap/viseme fap/wider \
+  fap/head/model fap/head/pose fap/head/vector fap/head/detail/geodesic fap/head/detail/normals \
   fap/head/detail/stops fap/head/detail/targets fap/head/detail/teeth fap/head/detail/whole \
   tools/view/viewer/rig/unpack tools/view/viewer/rig/module; do
   echo "#include \"$name.cpp\""

@@ -1,0 +1,199 @@
+// Sequences of ARKit's weights through FAPs: they come back in time, frame after frame.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <random>
+#include <sstream>
+#include <string>
+
+#include "fap/arkit.h"
+#include "tests/support/shared.h"
+
+namespace animeme::fap {
+namespace arkit_sequence_test {
+
+using Sequence = std::vector<ArkitFrame>;
+using Curve = std::map<std::string, double>;
+
+std::size_t channel(std::string_view name) { return std::size_t(find_arkit(name).value_or(0)); }
+
+ArkitFrame weights_of(const Curve& curve) {
+  ArkitFrame frame{};
+  for (const auto& [name, value] : curve) frame[channel(name)] = value;
+  return frame;
+}
+
+Sequence fitted(const Sequence& given) {
+  ArkitFitter fitter;
+  Sequence out;
+  for (const ArkitFrame& weights : given) {
+    Frame frame = arkit_to_fap(weights, kAllArkit);
+    for (int fap = kFirstLowLevel; fap <= kFapCount; ++fap) {
+      if (!frame.mask[std::size_t(fap)]) frame.set(fap, 0);  // as a stream that is complete
+    }
+    out.push_back(fitter.fit(frame));
+  }
+  return out;
+}
+
+struct Difference {
+  double mean = 0;
+  double frames_off = 0;  // share of those with a weight that is off by more than 0.2
+};
+
+Difference compare(const Sequence& given, const Sequence& found) {
+  Difference difference;
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    bool off = false;
+    for (std::size_t c = 0; c < std::size_t(kArkitShapeCount); ++c) {
+      const double one = std::abs(std::clamp(given[i][c], 0.0, 1.0) - found[i][c]);
+      difference.mean += one / kArkitShapeCount / double(given.size());
+      off = off || one > 0.2;
+    }
+    difference.frames_off += off ? 1.0 / double(given.size()) : 0;
+  }
+  return difference;
+}
+
+double bump(double t, double from, double length) {
+  const double share = (t - from) / length;
+  return share > 0 && share < 1 ? std::pow(std::sin(M_PI * share), 2) : 0;
+}
+
+// Blinks, winks, squints, wide eyes, gaze and a mouth that talks.
+Sequence made(double rate) {
+  Sequence sequence;
+  for (int i = 0; i < int(8 * rate); ++i) {
+    const double t = i / rate;
+    double blink = 0;
+    for (int k = 0; k < 6; ++k) blink = std::max(blink, bump(t, 0.4 + 1.3 * k, 0.25));
+    const double wide = blink == 0 ? 0.6 * std::max(0.0, std::sin(0.9 * t + 2)) : 0;
+    const double squint = 0.5 * std::max(0.0, std::sin(1.1 * t));
+    const double across = 0.6 * std::sin(0.7 * t), up = 0.3 * std::sin(0.5 * t + 1);
+    Curve curve{{"eyeBlinkLeft", 0.95 * blink},
+                {"eyeBlinkRight", int(t) % 3 == 0 ? 0.1 * blink : blink},
+                {"eyeSquintLeft", squint},
+                {"eyeSquintRight", squint},
+                {"eyeWideLeft", wide},
+                {"eyeWideRight", wide},
+                {across > 0 ? "eyeLookOutLeft" : "eyeLookInLeft", std::abs(across)},
+                {across > 0 ? "eyeLookInRight" : "eyeLookOutRight", std::abs(across)},
+                {up > 0 ? "eyeLookUpLeft" : "eyeLookDownLeft", std::abs(up)},
+                {up > 0 ? "eyeLookUpRight" : "eyeLookDownRight", std::abs(up)},
+                {"jawOpen", 0.3 + 0.3 * std::sin(12 * t)},
+                {"mouthPucker", std::max(0.0, 0.6 * std::sin(5 * t))},
+                {"mouthSmileLeft", 0.2},
+                {"mouthSmileRight", 0.2}};
+    sequence.push_back(weights_of(curve));
+  }
+  return sequence;
+}
+
+TEST(ArkitSequence, MadeSequencesComeBack) {
+  for (const double rate : {25.0, 30.0, 60.0}) {
+    const Sequence given = made(rate), found = fitted(given);
+    const Difference difference = compare(given, found);
+    EXPECT_LT(difference.mean, 0.005) << rate;
+    EXPECT_LE(difference.frames_off, 0.011) << rate;
+  }
+}
+
+// The eyes do not pop open after a blink.
+TEST(ArkitSequence, NoWideEyesAfterBlinks) {
+  for (const double rate : {25.0, 30.0, 60.0}) {
+    Sequence given;
+    for (int i = 0; i < int(4 * rate); ++i) {
+      const double t = i / rate;
+      const double blink = bump(t, 1, 0.3), squint = t > 1.3 ? 0.5 : 0;
+      given.push_back(weights_of({{"eyeBlinkLeft", blink},
+                                  {"eyeBlinkRight", blink},
+                                  {"eyeSquintLeft", squint},
+                                  {"eyeSquintRight", squint}}));
+    }
+    const Sequence found = fitted(given);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_LE(found[i][channel("eyeWideLeft")], 0.05) << rate << " frame " << i;
+      EXPECT_LE(found[i][channel("eyeWideRight")], 0.05) << rate << " frame " << i;
+      EXPECT_NEAR(found[i][channel("eyeBlinkLeft")], given[i][channel("eyeBlinkLeft")], 0.06);
+    }
+  }
+}
+
+// Lids alone: the blink is whole, and nothing else of the face moves.
+TEST(ArkitSequence, LidsAloneAreABlink) {
+  for (const auto& [upper, lower] : {std::pair{1024, 0}, {995, 29}, {512, 512}, {700, 324}}) {
+    Frame closed;
+    for (int fap = kFirstLowLevel; fap <= kFapCount; ++fap) closed.set(fap, 0);
+    for (const int fap : {19, 20}) closed.set(fap, upper);
+    for (const int fap : {21, 22}) closed.set(fap, lower);
+    ArkitFitter fitter;
+    const ArkitFrame found = fitter.fit(closed);
+    for (std::size_t c = 0; c < std::size_t(kArkitShapeCount); ++c) {
+      const std::string_view name = kArkitNames[c];
+      if (name.starts_with("eyeSquint")) continue;
+      if (name.starts_with("eyeBlink")) {
+        EXPECT_GE(found[c], 0.99) << name << upper;
+      } else {
+        EXPECT_LE(found[c], 0.1) << name << " at " << upper;
+      }
+    }
+  }
+}
+
+// Speech that no shapes made, with a blink: the mouth does not move the lids.
+TEST(ArkitSequence, BlinksInSpeechOfOthers) {
+  std::mt19937 random(5);
+  ArkitFitter fitter;
+  for (int i = 0; i < 120; ++i) {
+    const double t = i / 60.0;
+    Frame frame = arkit_to_fap(weights_of({{"jawOpen", 0.2 + 0.2 * std::sin(15 * t)},
+                                           {"eyeBlinkLeft", bump(t, 1, 0.25)},
+                                           {"eyeBlinkRight", bump(t, 1, 0.25)}}),
+                               kAllArkit);
+    for (const std::size_t fap : {4, 5, 8, 9, 10, 11, 51, 52, 55, 56, 57, 58, 12, 13, 6, 7}) {
+      frame.value[fap] += int(random() % 120) - 60;
+    }
+    const ArkitFrame found = fitter.fit(frame);
+    EXPECT_LE(found[channel("eyeWideLeft")], 0.05) << i;
+    EXPECT_NEAR(found[channel("eyeBlinkLeft")], bump(t, 1, 0.25), 0.1) << i;
+  }
+}
+
+Sequence read_controls(const std::string& text) {
+  std::istringstream lines(text);
+  std::string line, cell;
+  std::getline(lines, line);
+  std::vector<std::optional<int>> channels;
+  for (std::istringstream cells(line); std::getline(cells, cell, ',');) {
+    channels.push_back(find_arkit(cell));
+  }
+  Sequence out;
+  while (std::getline(lines, line)) {
+    out.emplace_back();
+    std::size_t i = 0;
+    for (std::istringstream cells(line); std::getline(cells, cell, ','); ++i) {
+      if (i < channels.size() && channels[i]) {
+        out.back()[std::size_t(*channels[i])] = std::atof(cell.c_str());
+      }
+    }
+  }
+  return out;
+}
+
+// Two takes of an iPhone, all of the face.
+TEST(ArkitSequence, RecordedTakesComeBack) {
+  if (test::shared_dir().empty()) GTEST_SKIP() << "no reference data";
+  const auto folder = test::shared_dir() / "data" / "livelink_rom" / "controls";
+  for (const char* name : {"alex_rom_3.csv", "alex_rom_4.csv"}) {
+    const Sequence given = read_controls(test::slurp(folder / name));
+    ASSERT_GT(given.size(), 3000u) << name;
+    const Difference difference = compare(given, fitted(given));
+    EXPECT_LT(difference.mean, 0.01) << name;
+    EXPECT_LE(difference.frames_off, 0.01) << name;
+  }
+}
+
+}  // namespace arkit_sequence_test
+}  // namespace animeme::fap
