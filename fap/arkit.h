@@ -98,7 +98,8 @@ struct ArkitFitOptions {
 ///   and the inverse of arkit_to_fap().
 /// - Faces that ARKit's shapes made, as those of captures are, come back as they were, whatever the
 ///   frame before: the most likely weights for FAPs that were rounded or quantised.
-/// - Other faces: lids and brows by their FAPs alone; the rest, weights from 0 to 1 by least squares
+/// - Other faces: lids and brows by their FAPs alone; the rest, weights from 0 to 1 by least
+/// squares
 ///   over the FAPs of the frame's mask, in lengths on the face (FAPU of the head that the table was
 ///   measured on). Lips that would stay further apart than they should are drawn together, so that
 ///   P, B and M close.

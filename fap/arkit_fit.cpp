@@ -130,7 +130,7 @@ ArkitFrame ArkitFitter::fit(const Frame& frame) {
   }
   static const std::size_t kDown[] = {std::size_t(find_arkit("eyeLookDownLeft").value_or(0)),
                                       std::size_t(find_arkit("eyeLookDownRight").value_or(0))};
-  for (const std::size_t side : {0, 1}) looks_down[side] = out[kDown[side]];
+  for (std::size_t side = 0; side < 2; ++side) looks_down[side] = out[kDown[side]];
   const std::vector<double>& weights = impl_->fit.fit(frame, target, looks_down);
   for (std::size_t i = 0; i < impl_->shapes.size(); ++i) out[impl_->shapes[i]] = weights[i];
   return out;

@@ -237,7 +237,7 @@ const std::vector<double>& FaceFit::fit(const Frame& frame, FapValues target,
     }
   }
   if (certainty < 1) {
-    for (const std::size_t side : {0, 1}) {
+    for (std::size_t side = 0; side < 2; ++side) {
       const double over = target[21 + side] - kLowerLid;
       if (!(over > 0) || !frame.mask[19 + side]) continue;
       target[19 + side] += over;

@@ -46,12 +46,12 @@ class ShapeFitter {
   ShapeFitter& operator=(ShapeFitter&&) noexcept;
   ~ShapeFitter();
 
-  /// Weights from 0 to 1 whose FAPs best approximate those of `frame`. Shapes that turn the eyeballs
-  /// by FAP 23 to 26 alone. With `arkit`, a face that the shapes made gets their weights back, and
-  /// of other faces lids and brows are fitted apart from the mouth. The rest: least squares over the
-  /// FAPs of its mask, in lengths on a face of usual proportions; the distance of the lips counts
-  /// three times, the width of the mouth one and a half times. A blink is whole where lids meet.
-  /// Frames are independent. Valid until the next call.
+  /// Weights from 0 to 1 whose FAPs best approximate those of `frame`. Shapes that turn the
+  /// eyeballs by FAP 23 to 26 alone. With `arkit`, a face that the shapes made gets their weights
+  /// back, and of other faces lids and brows are fitted apart from the mouth. The rest: least
+  /// squares over the FAPs of its mask, in lengths on a face of usual proportions; the distance of
+  /// the lips counts three times, the width of the mouth one and a half times. A blink is whole
+  /// where lids meet. Frames are independent. Valid until the next call.
   const std::vector<double>& fit(const Frame& frame);
 
  private:
