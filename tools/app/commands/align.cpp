@@ -4,6 +4,7 @@
 #include "dam/script/script.h"
 #include "tools/app/commands/command.h"
 #include "tools/app/commands/script_options.h"
+#include "tools/app/commands/spoken_options.h"
 #include "tools/app/commands/terminal.h"
 #include "tools/app/commands/text_or_file.h"
 #include "tools/formats/common/json.h"
@@ -28,19 +29,6 @@ struct AlignOptions {
   std::string output;
   bool json = false;
 };
-
-// The words that are less sure than they have to be.
-Result<void> check_words(const voice::Alignment& alignment, double least) {
-  std::string list;
-  for (const voice::AlignedWord& word : alignment.words) {
-    if (!word.known || word.confidence >= least) continue;
-    char where[64];
-    std::snprintf(where, sizeof where, " (%.2f s, %.2f)", word.start, word.confidence);
-    list += (list.empty() ? "" : ", ") + word.text + where;
-  }
-  if (list.empty()) return {};
-  return make_error(Code::out_of_range, "words below --min-confidence: " + list);
-}
 
 Json json_of_word(const voice::AlignedWord& word) {
   return {{"word", word.text},
@@ -173,8 +161,8 @@ void add_options(OptionTable& cli, AlignOptions& options) {
       ->show_default();
   cli.add("--min-confidence", options.least,
           "Fail if words have a lower confidence, 0 to 1 (0.05: words that hardly match), "
-          "and name them; 0: accept everything. Default: fail if the text as a whole does "
-          "not match (another text, noise, no speech)")
+          "and name them; 0: accept everything. Default: fail if the text as a whole matches "
+          "no better than wrong texts do (another text, noise, no speech)")
       ->between(0.0, 1.0);
   cli.add("-o,--output", options.output,
           "Script to write: .TextGrid (Praat), .tsv, .pho (MBROLA), .vtt (WebVTT), - for a "

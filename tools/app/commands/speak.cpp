@@ -47,6 +47,7 @@ struct SpeakOptions {
   bool subtitles = false;
   bool language_told = false;
   std::uint64_t seed = 1;
+  std::optional<double> least;  // confidence
   bool json = false;
 };
 
@@ -303,6 +304,17 @@ std::string place_input(SpeakOptions& options) {
   return {};
 }
 
+// What --min-confidence asks for: of every word of a transcript, of sound alone as a whole.
+Result<void> check_confidence(const SpeakOptions& options, const speech::Spoken& spoken) {
+  if (!options.least) return {};
+  if (spoken.alignment) return check_words(*spoken.alignment, *options.least);
+  if (!spoken.heard || spoken.heard->confidence >= *options.least) return {};
+  return make_error(Code::out_of_range,
+                    format("recognised with confidence %.2f, below --min-confidence; give a "
+                           "transcript, or use a clearer recording",
+                           spoken.heard->confidence));
+}
+
 Result<int> run(SpeakOptions& options) {
   if (!options.input.empty()) {
     if (const std::string wrong = place_input(options); !wrong.empty()) return usage_error(wrong);
@@ -325,10 +337,14 @@ Result<int> run(SpeakOptions& options) {
   if (!model) return model.error();
   ProgressLine progress("listening");
   speech::SpokenOptions source = options.spoken;
+  if (options.least && *options.least == 0) source.least_confidence = 0;
   source.heard = [&](double done) { progress.update(done); };
   Result<speech::Spoken> spoken = speech::get_spoken(source, terminal_log());
   progress.clear();
   if (!spoken) return spoken.error();
+  if (auto sure = check_confidence(options, *spoken); !sure) {
+    return sure.error().in_file(options.spoken.audio);
+  }
   if (spoken->heard) {
     say_more(options.spoken.audio + ": " + std::to_string(spoken->script.phones.size()) +
              format(" phones recognised, confidence %.2f", spoken->heard->confidence));
@@ -407,6 +423,11 @@ void add_options(OptionTable& cli, SpeakOptions& options) {
   add_stream_options(cli, options.stream);
   add_preview_option(cli, options.preview);
   add_sound_options(cli, options.sound, false);
+  cli.add("--min-confidence", options.least,
+          "Write nothing and fail if a recording is recognised, or a word of its transcript is "
+          "found, "
+          "with a lower confidence, 0 to 1; 0: accept any transcript")
+      ->between(0.0, 1.0);
   cli.add("--json", options.json, "Print a machine-readable summary");
   cli.show_in_help_all("Details of coding",
                        "--intra-seconds --audio-codec --audio-bitrate --exact");

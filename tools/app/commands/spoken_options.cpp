@@ -3,6 +3,7 @@
 #include "tools/app/commands/options.h"
 #include "tools/app/commands/script_options.h"
 #include "tools/app/commands/text_or_file.h"
+#include "tools/formats/common/text.h"
 
 namespace animeme::tools {
 
@@ -66,6 +67,17 @@ std::string missing_options(const speech::SpokenOptions& options) {
   return options.audio.empty()
              ? "nothing to say: give a text, --script, or --audio with --transcript"
              : "--audio needs --transcript (its text) or --script (its timed phones)";
+}
+
+Result<void> check_words(const voice::Alignment& alignment, double least) {
+  std::string list;
+  for (const voice::AlignedWord& word : alignment.words) {
+    if (!word.known || word.confidence >= least) continue;
+    list += (list.empty() ? "" : ", ") + word.text +
+            format(" (%.2f s, %.2f)", word.start, word.confidence);
+  }
+  if (list.empty()) return {};
+  return make_error(Code::out_of_range, "words below --min-confidence: " + list);
 }
 
 }  // namespace animeme::tools

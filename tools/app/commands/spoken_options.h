@@ -18,4 +18,8 @@ void add_spoken_options(OptionTable& cli, speech::SpokenOptions& options);
 /// A sentence about what is missing on the command line, empty if nothing is.
 std::string missing_options(const speech::SpokenOptions& options);
 
+/// Error out_of_range if words of a transcript have a lower confidence than `least`, with their
+/// names.
+Result<void> check_words(const voice::Alignment& alignment, double least);
+
 }  // namespace animeme::tools

@@ -63,6 +63,7 @@ Result<Spoken> follow_script(const SpokenOptions& options, const tools::Log& log
 Result<Spoken> align_voice(const SpokenOptions& options, const tools::Log& log) {
   voice::AlignOptions settings;
   settings.language = options.language;
+  settings.least_confidence = options.least_confidence;
   Result<voice::Alignment> aligned = align_file(
       options.audio, text_to_say(options.transcript, options.script_reading.speak_marks, log),
       settings, log);

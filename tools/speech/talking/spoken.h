@@ -35,6 +35,7 @@ struct SpokenOptions {
   std::string audio;                   ///< a recorded voice
   std::string transcript;              ///< what is said in it
   bool has_transcript = false;         ///< transcript may be empty
+  double least_confidence = 0.5;       ///< of the transcript, as voice::AlignOptions has it
   bool listen = false;                 ///< audio alone: phones are recognised
   std::function<void(double)> heard;   ///< receives the progress of recognition, 0..1; may be empty
   std::string language = "en";         ///< as voice::VoiceOptions::language

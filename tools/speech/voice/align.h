@@ -27,8 +27,10 @@ struct AlignOptions {
   std::string model_path = "/usr/share/pocketsphinx/model/en-us/en-us";
   /// Pronunciations: lines "word PH PH ...", variants as "word(2) ...". Used for English only.
   std::string dictionary_path = "/usr/share/pocketsphinx/model/en-us/cmudict-en-us.dict";
-  /// Minimum overall confidence (Alignment::confidence), 0..1; others are rejected, such as noise,
-  /// silence, or a wrong transcript. 0: accept everything.
+  /// Overall confidence (Alignment::confidence), 0..1, that needs no second look. Below, texts that
+  /// nobody said are aligned as well: a transcript that fits no better than they do is rejected,
+  /// such as a wrong one, noise, or silence; one that does is accepted with a warning. 0: accept
+  /// everything.
   double least_confidence = 0.5;
 };
 
@@ -90,7 +92,8 @@ inline constexpr std::size_t kMostTranscript = 1000000;
 /// words), truncated (less than 0.1 s of audio), out_of_range (more than kMaxAlignSeconds or
 /// kMostTranscript, or too short for so many phones), not_found (model or dictionary; a word
 /// without pronunciation in a build without espeak-ng), unsupported (built without pocketsphinx),
-/// out_of_range also for an alignment below least_confidence, plus those of pronounce().
+/// out_of_range also for a transcript that is rejected (least_confidence), plus those of
+/// pronounce().
 Result<Alignment> align(const media::Pcm& audio, std::string_view transcript,
                         const AlignOptions& options = {});
 

@@ -72,7 +72,8 @@ Path agreed_path(const HearingModel& model, const Votes& votes);
 
 /// The phones of a path whose frame 0 is frame `first` of a sound; times are from `origin`
 /// (seconds), from 0 to `end` (seconds). Without gaps, no two silences in a row. `confidences`, if
-/// not null, gets the mean share of the votes of each.
+/// not null, gets for each how often such phones have the right shape of the mouth, 0..1, by their
+/// share of the votes.
 dam::Script script_of_path(const HearingModel& model, const Path& path, std::size_t first,
                            double origin, double end, const Votes* votes = nullptr,
                            std::vector<double>* confidences = nullptr);

@@ -149,8 +149,8 @@ void lean_on_words(const std::vector<WordPath>& words, std::vector<std::vector<f
 
 constexpr double kLeastSeconds = 0.1;
 constexpr double kLeastSpeech = 0.1;        // seconds; less is a click
-constexpr double kUnsure = 0.25;            // of the whole: below, it may be no speech at all
-constexpr double kGuessed = 0.5;            // clear voices of any language have 0.55 and more
+constexpr double kUnsure = 0.1;             // of the whole: below, it may be no speech at all
+constexpr double kGuessed = 0.6;            // clear voices have more
 constexpr double kFull = 0.999;             // of full scale: a sample that may be cut off
 constexpr double kMostFull = 0.01;          // of all samples
 constexpr double kBelieved = 0.25;          // words that are named

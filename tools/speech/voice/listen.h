@@ -58,8 +58,9 @@ struct RecognisedWord {
 struct Recognition {
   dam::Script script;  ///< the consensus of the readings, with the words of `words`
   std::vector<double>
-      confidences;        ///< of each phone of `script`: the share of readings that agree, 0..1
-  double confidence = 0;  ///< their mean over time without silence; 0: no speech
+      confidences;  ///< of each phone of `script`: how likely the mouth is right, 0..1
+  double confidence =
+      0;  ///< their mean over time without silence; 0: no speech; below 0.6 warned of
   std::vector<RecognisedWord> words;  ///< credible English words, in order
   std::vector<dam::Script> readings;  ///< equally likely hypotheses
   std::vector<std::string> warnings;  ///< sentences for the user; may be empty

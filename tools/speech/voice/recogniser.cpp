@@ -7,6 +7,7 @@
 #include "dam/script/phones.h"
 #include "dam/script/script_text_internal.h"
 #include "tools/speech/voice/place_words.h"
+#include "tools/speech/voice/wrong_texts.h"
 
 namespace animeme::voice {
 namespace {
@@ -125,6 +126,24 @@ Result<void> check_recogniser(const AlignOptions& options) {
     }
   }
   return {};
+}
+
+Result<std::vector<double>> explained_by_wrong_texts(const SpeechPart& part,
+                                                     const std::vector<SpokenWord>& words,
+                                                     const AlignOptions& options) {
+  const auto model = read_sound_model(options.model_path);
+  if (!model) return model.error();
+  const auto reader = CepstraReader::open(options.model_path);
+  if (!reader) return reader.error();
+  const bool english = is_english(options.language);
+  const auto models = models_of(*model, words, english);
+  const MeasuredSound sound = measure_sound(**reader, part);
+  std::vector<double> explained;
+  for (std::size_t i = 0; i < kWrongTexts; ++i) {
+    explained.push_back(
+        place_words(*model, sound, wrong_text(*model, models, i), !english).explained);
+  }
+  return explained;
 }
 
 Result<Recognised> recognise(const SpeechPart& part, const std::vector<SpokenWord>& words,

@@ -39,4 +39,11 @@ struct Recognised {
 Result<Recognised> recognise(const SpeechPart& part, const std::vector<SpokenWord>& words,
                              const AlignOptions& options);
 
+/// What texts that nobody said explain of the same speech (Placement::explained), each made of the
+/// words: how well a wrong text of their kind fits. Takes as long as kWrongTexts alignments. Errors
+/// as check_recogniser().
+Result<std::vector<double>> explained_by_wrong_texts(const SpeechPart& part,
+                                                     const std::vector<SpokenWord>& words,
+                                                     const AlignOptions& options);
+
 }  // namespace animeme::voice
