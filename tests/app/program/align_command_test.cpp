@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -81,6 +82,26 @@ TEST(AlignCommand, MinConfidenceRefusesByName) {
   const auto other = align(dir, "nine years ago our uncle never knew how many letters she wrote");
   EXPECT_EQ(other.exit_code, 3);
   EXPECT_THAT(other.err, HasSubstr("does not fit the recording"));
+}
+
+TEST(AlignCommand, SpeakRefusesByMinConfidenceToo) {
+  const TempDir dir;
+  if (const auto why = no_aligner(dir); !why.empty()) GTEST_SKIP() << why;
+  const auto speak = [&](std::vector<std::string> more) {
+    std::vector<std::string> all{"speak", "--audio", dir / "voice.mp4", "-o", dir / "talk.fba"};
+    all.insert(all.end(), more.begin(), more.end());
+    return animeme(all);
+  };
+  const auto unsure = speak({"--min-confidence", "0.99"});
+  EXPECT_EQ(unsure.exit_code, 3);
+  EXPECT_THAT(unsure.err, HasSubstr("below --min-confidence"));
+  const std::string one_more =
+      "please put the small yesterday blue book on the table by the window";
+  const auto word = speak({"--transcript", one_more, "--min-confidence", "0.05"});
+  EXPECT_EQ(word.exit_code, 3);
+  EXPECT_THAT(word.err, HasSubstr("words below --min-confidence: yesterday"));
+  EXPECT_FALSE(std::filesystem::exists(dir / "talk.fba"));
+  EXPECT_EQ(speak({"--min-confidence", "0.05"}).exit_code, 0);
 }
 
 TEST(AlignCommand, WithoutItsTextByEarAndBesideTheRecording) {

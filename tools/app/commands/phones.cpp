@@ -173,7 +173,7 @@ Result<int> run_all(const PhonesOptions& options) {
   return kOk;
 }
 
-constexpr int kPictureSize = 150;
+constexpr int kPhonePictureSize = 150;
 
 // The vowels of the chart: a sheet of pictures, and their figures as a table or as JSON.
 Result<int> run_sheet(const PhonesOptions& options) {
@@ -182,7 +182,7 @@ Result<int> run_sheet(const PhonesOptions& options) {
   const auto vowels = studio::chart_vowels(*model);
   if (!vowels) return vowels.error();
   const studio::HeadLook look{
-      .head = options.head, .zoom = 2.4, .width = kPictureSize, .height = kPictureSize};
+      .head = options.head, .zoom = 2.4, .width = kPhonePictureSize, .height = kPhonePictureSize};
   const auto svg = studio::vowel_chart_svg(look, *vowels, terminal_log());
   if (!svg) return svg.error();
   const auto file = plot::drawing_bytes(options.sheet, *svg);
