@@ -7,6 +7,7 @@
 #include "dam/signal/fap_signal.h"
 #include "tools/formats/exchange/arkit.h"
 #include "tools/formats/exchange/detail/action_units.h"
+#include "tools/formats/exchange/detail/face_packets.h"
 #include "tools/formats/exchange/detail/json_landmarks.h"
 #include "tools/formats/exchange/detail/landmark_columns.h"
 #include "tools/formats/exchange/detail/table.h"
@@ -235,6 +236,11 @@ Result<CaptureTable> capture_table(std::string_view text, const CaptureTableOpti
     Result<JsonTable> json = json_to_table(text, options.shapes);
     if (!json) return std::move(json).error();
     out = {{}, std::move(json->table), json->size, json->layout, std::move(json->warnings)};
+  } else if (is_face_packets(text)) {
+    Result<ShapeTable> shapes = face_packets_to_shapes(text);
+    if (!shapes) return std::move(shapes).error();
+    out.table = std::move(shapes->table);
+    out.warnings = std::move(shapes->warnings);
   } else {
     out.table = text;
   }

@@ -20,6 +20,7 @@
 /// - JSON of ARKit's shapes in any structure: detail/json_curves.h (animeme-arkit, Audio2Face,
 /// BEAT,
 ///   Azure Speech, lists of dictionaries, MediaPipe).
+/// - Packets of iFacialMocap and Facemotion3d ("mouthSmile_R-0|jawOpen-12|..."), one a line.
 /// - Action units (AU01_r, AU12 ...) of OpenFace, LibreFace and Py-Feat, where there are no points.
 /// - Decimal commas, if semicolons or tabs separate the fields.
 #pragma once

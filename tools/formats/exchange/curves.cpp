@@ -7,6 +7,7 @@
 #include "dam/signal/fap_signal.h"
 #include "tools/formats/exchange/arkit.h"
 #include "tools/formats/exchange/detail/action_units.h"
+#include "tools/formats/exchange/detail/face_packets.h"
 #include "tools/formats/exchange/detail/json_landmarks.h"
 #include "tools/formats/exchange/detail/table.h"
 #include "tools/formats/exchange/landmarks.h"
@@ -32,6 +33,7 @@ Result<Imported> read_any_table(std::string_view text) {
     if (!json) return std::move(json).error();
     return read_converted(ShapeTable{std::move(json->table), std::move(json->warnings)});
   }
+  if (is_face_packets(text)) return read_converted(face_packets_to_shapes(text));
   if (is_arkit_table(text)) return read_arkit_table(text);
   if (is_landmark_table(text)) {
     auto take = import_landmarks(text);

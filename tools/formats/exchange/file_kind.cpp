@@ -5,6 +5,7 @@
 
 #include "tools/formats/exchange/arkit.h"
 #include "tools/formats/exchange/detail/action_units.h"
+#include "tools/formats/exchange/detail/face_packets.h"
 #include "tools/formats/exchange/detail/json_curves.h"
 #include "tools/formats/exchange/landmarks.h"
 
@@ -58,6 +59,7 @@ FileKind kind_of(std::span<const std::uint8_t> bytes) {
   if (view.starts_with("\xEF\xBB\xBF")) view.remove_prefix(3);
   if (view.find("ooTextFile") != std::string_view::npos) return FileKind::script;
   if (view.starts_with("WEBVTT")) return FileKind::script;
+  if (is_face_packets(whole)) return FileKind::curves;
   // A table with a header line of words is a script; FAP text is numbers from its first word on,
   // and to its last.
   while (!view.empty()) {

@@ -181,6 +181,22 @@ double measured_rate(const std::vector<double>& seconds, double step) {
   return frames / (seconds.back() - seconds.front());
 }
 
+// The same by a line through all rows, which jitter of the first and the last one does not turn: a
+// tenth of a frame there would make 59.94 of 60 in a take of five seconds.
+double rate_of_line(const std::vector<double>& seconds, double step) {
+  double frame = 0, frames = 0, times = 0, squares = 0, products = 0;
+  for (std::size_t i = 0; i < seconds.size(); ++i) {
+    if (i > 0) frame += std::round((seconds[i] - seconds[i - 1]) / step);
+    const double time = seconds[i] - seconds.front();
+    frames += frame;
+    times += time;
+    squares += time * time;
+    products += time * frame;
+  }
+  const auto count = double(seconds.size());
+  return (count * products - times * frames) / (count * squares - times * times);
+}
+
 fap::Rate snapped(double measured, double duration, bool timecode) {
   fap::Rate best{0, 1};
   double error = kSnap;
@@ -228,7 +244,7 @@ Result<fap::Rate> tell_rate(const std::vector<double>& seconds, bool timecode) {
             " s apart, which is not a valid frame rate; correct them or give the rate");
   }
   if (duration > 0 && steps.size() >= kStepsToTell && 1 - unevenness(seconds) >= kMostlyEven) {
-    return rate_of_even(measured, duration);
+    return rate_of_even(rate_of_line(seconds, step), duration);
   }
   return snapped(measured, duration, timecode);
 }
