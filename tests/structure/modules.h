@@ -124,7 +124,8 @@ inline constexpr Library kLibraries[] = {
     {"libwebsockets", "libwebsockets", "tools/live/web/detail"},
     {"libanimeme", "animeme/animeme.h", "tools/bindings/examples tests"},
     {"zlib", "zlib",
-     "tools/formats/inspect tools/view/render tools/view/viewer tools/live/web/detail tests"},
+     "tools/formats/inspect tools/view/gltf/detail tools/view/render tools/view/viewer "
+     "tools/live/web/detail tests"},
     {"libpng, libjpeg, libwebp", "png jpeglib jerror webp/",
      "tools/view/gltf/detail tools/view/studio tests"},
     {"MPI", "mpi.h", "tools/app/mpi", true},

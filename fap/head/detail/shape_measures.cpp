@@ -32,6 +32,18 @@ bool shows_mouth(const fap::Frame& faps) {
   return false;
 }
 
+// Where a shape that opens the jaw leaves the chin (a mouth that opens within the skin), or no chin
+// is known, FAP 3 still opens it: as far as its lower lip goes, of what its name means.
+void open_without_chin(const fap::Frame& meant, fap::Frame& faps) {
+  constexpr std::size_t kJawOpens = 3, kLowerLip = 5;
+  constexpr double kLeavesChin = 0.1, kMost = 1.5;
+  const double full = meant.value[kJawOpens], lip = -double(meant.value[kLowerLip]);
+  if (!meant.mask[kJawOpens] || !(full > 0) || !(lip > 0) || !faps.mask[kLowerLip]) return;
+  if (faps.mask[kJawOpens] && faps.value[kJawOpens] >= kLeavesChin * full) return;
+  const double share = std::clamp(-double(faps.value[kLowerLip]) / lip, 0.0, kMost);
+  if (share > 0) faps.set(int(kJawOpens), std::int32_t(std::lround(share * full)));
+}
+
 }  // namespace
 
 fap::LipMeasures lip_measures(const Head& head, const Rig& rig) {
@@ -76,6 +88,7 @@ std::vector<ShapeControl> measured_shapes(const Head& head, const Rig& rig) {
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     ShapeControl& shape = shapes[i];
     if (shape.arkit == fap::kWholeFace || !shows_mouth(shape.faps)) continue;
+    const fap::Frame meant = shape.faps;
     for (int f = fap::kFirstLowLevel; f <= fap::kFapCount; ++f) {
       if (!of_mouth(f)) continue;
       const FeaturePoint point = head.point(fap::info(f).feature_point);
@@ -90,6 +103,7 @@ std::vector<ShapeControl> measured_shapes(const Head& head, const Rig& rig) {
       }
       shape.faps.set(f, std::int32_t(std::lround(dot(shift, axis) / unit)));
     }
+    open_without_chin(meant, shape.faps);
   }
   return shapes;
 }

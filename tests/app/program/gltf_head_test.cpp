@@ -110,5 +110,64 @@ TEST(GltfHead, MistakesAreNamed) {
   EXPECT_THAT(cut.err, HasSubstr("ends too early"));
 }
 
+// A file with names of its own, as long as those that it had.
+void rename_shapes(const std::string& file, const std::string& output) {
+  std::string bytes = slurp(file);
+  for (const char* name : {"jawOpen", "mouth", "eye", "brow", "cheek", "nose", "tongue", "jaw"}) {
+    const std::string from = '"' + std::string(name);
+    const std::string to = "\"q" + std::string(from.size() - 2, 'x');
+    for (std::size_t at = 0; (at = bytes.find(from, at)) != std::string::npos; ++at) {
+      if (bytes.compare(at, 10, "\"mouth_bon") != 0) bytes.replace(at, to.size(), to);
+    }
+  }
+  test::spill(output, bytes);
+}
+
+TEST(GltfHead, NamesOfShapesCanBeSaid) {
+  const TempDir dir;
+  const std::string known = child(dir), strange = dir / "strange.glb";
+  rename_shapes(known, strange);
+  const auto refused = animeme({"head", strange});
+  EXPECT_THAT(refused.err + refused.out, HasSubstr("qxxxxxx"));
+  std::string table = "shape,meaning\n";
+  const std::string bytes = slurp(known);
+  for (const char* name : {"mouthSmileLeft", "mouthSmileRight", "mouthClose", "eyeBlinkLeft",
+                           "eyeBlinkRight", "mouthFunnel", "mouthPucker"}) {
+    const std::string group = name[0] == 'e' ? "eye" : "mouth";
+    table += 'q' + std::string(group.size() - 1, 'x') + std::string(name).substr(group.size()) +
+             ',' + name + '\n';
+  }
+  test::spill(dir / "names.csv", table);
+  const std::vector<std::string> rules = {"--shape-name", "qxxxxxx=jawOpen", "--shape-names",
+                                          dir / "names.csv"};
+  const auto run = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), rules.begin(), rules.end());
+    return animeme(arguments);
+  };
+  const auto head = run({"head", strange});
+  EXPECT_EQ(head.exit_code, 0) << head.err;
+  EXPECT_THAT(head.out, HasSubstr("moved by 8 shapes"));
+  // Every command that takes such a head knows them.
+  for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+           {"render", clip(), "--frame", "0", "--size", "64x64", "--head", strange, "-o",
+            dir / "a.png"},
+           {"view", clip(), "--head", strange, "-o", dir / "a.html"},
+           {"export", clip(), "--head", strange, "-o", dir / "a.glb"}}) {
+    const auto result = run(command);
+    EXPECT_EQ(result.exit_code, 0) << command[0] << ": " << result.err;
+  }
+  const auto without = animeme({"export", clip(), "--head", strange, "-o", dir / "b.glb"});
+  EXPECT_EQ(without.exit_code, 3) << without.err;
+  EXPECT_THAT(without.err, HasSubstr("--shape-name"));
+  const auto missing = animeme({"head", strange, "--shape-name", "mouth_x=jawOpen"});
+  EXPECT_EQ(missing.exit_code, 3) << missing.err;
+  EXPECT_THAT(missing.err, HasSubstr("there are: "));
+  const auto wrong = animeme({"head", strange, "--shape-name", "qxxxxxx=wurst"});
+  EXPECT_EQ(wrong.exit_code, 2) << wrong.err;
+  EXPECT_THAT(wrong.err, HasSubstr("\"wurst\" is not a known meaning"));
+  const auto built_in = animeme({"head", "woman", "--shape-name", "a=jawOpen"});
+  EXPECT_EQ(built_in.exit_code, 2) << built_in.err;
+}
+
 }  // namespace gltf_head_test
 }  // namespace animeme

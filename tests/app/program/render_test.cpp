@@ -87,6 +87,26 @@ TEST(Render, StillsAndSheetsHaveTheirSizes) {
   EXPECT_EQ(times.width, 2 * 40 + 2);
 }
 
+// Above the shoulders the edges show what is behind the head, in pictures for phones, too.
+TEST(Render, NarrowPicturesCutNoHair) {
+  const TempDir dir;
+  for (const char* head : {"woman", "man", "child"}) {
+    const Picture wide = draw(dir, {clip(), "--frame", "0", "--size", "160x96", "--head", head});
+    for (const char* size : {"54x96", "40x96", "71x96"}) {
+      const Picture narrow = draw(dir, {clip(), "--frame", "0", "--size", size, "--head", head});
+      for (int y = 0; y < narrow.height / 2; ++y) {
+        for (const int x : {0, narrow.width - 1}) {
+          for (int c = 0; c < 3; ++c) {
+            const int is = narrow.rgb[std::size_t((y * narrow.width + x) * 3 + c)];
+            const int behind = wide.rgb[std::size_t(y * wide.width * 3 + c)];
+            ASSERT_NEAR(is, behind, 8) << head << " " << size << " at " << x << ", " << y;
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST(Render, FramesAndViewsDiffer) {
   const TempDir dir;
   const std::string high = (test::data_dir() / "fap" / "high_level.fap").string();

@@ -144,6 +144,21 @@ TEST(StrangeHeads, TheOrderOfNamesDoesNotMatter) {
   }
 }
 
+// A mouth that opens within the skin, while the chin stays: a jaw that drops opens it.
+TEST(StrangeHeads, AMouthWithoutAChinIsOpenedByTheJaw) {
+  std::vector<Target> targets = kUsual;
+  std::erase_if(targets, [](const Target& target) { return target.name == "jawOpen"; });
+  targets.push_back({"mouthOpen", "mouthLowerDownLeft"});
+  const auto head = loaded(woman_file(targets));
+  ASSERT_TRUE(head);
+  const head::Rig rig = head::make_rig(head->head);
+  const auto shape = std::find_if(rig.shapes.begin(), rig.shapes.end(),
+                                  [](const auto& one) { return one.name == "mouthOpen"; });
+  ASSERT_NE(shape, rig.shapes.end());
+  EXPECT_TRUE(shape->faps.mask[3]);
+  EXPECT_GT(shape->faps.value[3], 100);
+}
+
 TEST(StrangeHeads, WordsWithinWordsSayNothing) {
   using head::part_by_name;
   for (const char* name : {"Christopher_Head", "Christopher", "Chatbot", "Somebody", "Cheyenne",

@@ -65,20 +65,21 @@ bool is_vrma(const std::string& path) { return extension_of(path) == ".vrma"; }
 
 // Empty: nothing is wrong.
 std::string problem_of_files(const AvatarExport& job) {
-  const bool text = extension_of(job.head) == ".gltf";
+  const bool text = extension_of(job.head.head) == ".gltf";
   if (is_vrma(job.output)) {
     return job.sounds.empty() ? "" : "a .vrma has no sound: leave --sound out, or write a .vrm";
   }
   if (text != (extension_of(job.output) == ".gltf")) {
-    return job.head + " stays the kind of file that it is: --output must end in " +
+    return job.head.head + " stays the kind of file that it is: --output must end in " +
            (text ? ".gltf" : ".glb or .vrm (.vrma: the motion alone)") + ", not " + job.output;
   }
   std::error_code unknown;
   const auto folder_of = [&](const std::string& path) {
     return fs::weakly_canonical(fs::absolute(path, unknown).parent_path(), unknown);
   };
-  if (text && folder_of(job.head) != folder_of(job.output)) {
-    return "a .gltf names files beside it: write " + job.output + " into the folder of " + job.head;
+  if (text && folder_of(job.head.head) != folder_of(job.output)) {
+    return "a .gltf names files beside it: write " + job.output + " into the folder of " +
+           job.head.head;
   }
   if (!job.sounds.empty() && job.sounds.size() != job.clips.size()) {
     return "--sound names one sound for each clip: " + std::to_string(job.sounds.size()) + " for " +
@@ -99,7 +100,7 @@ Result<void> write_parts(const std::string& path, const gltf::AnimatedFile& file
 
 void say_animations(const AvatarExport& job, const std::vector<gltf::NamedClip>& clips,
                     const std::vector<std::string>& names, const std::vector<std::string>& notes) {
-  for (const std::string& note : notes) say(job.head + ": " + note);
+  for (const std::string& note : notes) say(job.head.head + ": " + note);
   for (std::size_t i = 0; i < clips.size(); ++i) {
     const fap::Sequence& clip = clips[i].clip;
     say(job.output + ": animation \"" + names[i] + "\", " + std::to_string(clip.frames.size()) +
@@ -147,20 +148,23 @@ Result<int> export_avatar(const AvatarExport& job) {
   ProgressLine progress("exporting");
   gltf::AnimateOptions options;
   options.progress = [&](double done) { progress.update(done); };
-  if (const auto problem = studio::problem_of({job.head, "", job.gain}); !problem.empty()) {
+  if (const auto problem = studio::problem_of(job.head); !problem.empty()) {
     return usage_error(problem);
   }
-  if (job.gain != "1") {
-    const auto measured = studio::load_head({job.head, "", job.gain});
+  if (job.head.gain != "1") {
+    const auto measured = studio::load_head(job.head);
     if (!measured) return measured.error();
     options.mouth_gain = measured->head.mouth_gain;
   }
-  const auto bytes = read_file(job.head, options.reading.limits.bytes);
+  auto rules = gltf::shape_rules_of(job.head.shape_names, job.head.shape_table);
+  if (!rules) return rules.error();
+  options.reading.rules = std::move(*rules);
+  const auto bytes = read_file(job.head.head, options.reading.limits.bytes);
   if (!bytes) return bytes.error();
-  options.reading.load = gltf::files_of(fs::path(job.head).parent_path().string());
+  options.reading.load = gltf::files_of(fs::path(job.head.head).parent_path().string());
   if (is_vrma(job.output)) {
     const auto file = gltf::vrm_animation(*bytes, clips, options);
-    if (!file) return file.error().in_file(job.head);
+    if (!file) return file.error().in_file(job.head.head);
     if (auto written = write_file(job.output, file->file); !written) return written.error();
     progress.clear();
     say_animations(job, clips, file->names, file->notes);
@@ -173,7 +177,7 @@ Result<int> export_avatar(const AvatarExport& job) {
     return kOk;
   }
   const auto file = gltf::animate_file(*bytes, clips, options);
-  if (!file) return file.error().in_file(job.head);
+  if (!file) return file.error().in_file(job.head.head);
   if (auto written = write_parts(job.output, *file); !written) return written.error();
   progress.clear();
   say_animations(job, clips, file->names, file->notes);

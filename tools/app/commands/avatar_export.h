@@ -32,12 +32,11 @@ struct AvatarClip {
 
 /// What is to be done.
 struct AvatarExport {
-  std::string head;                 ///< .glb, .gltf or .vrm
+  studio::HeadChoice head;          ///< .glb, .gltf or .vrm, without points
   std::string output;               ///< likewise, or .vrma
   std::string audio;                ///< name of the sound to mention; empty: none
   std::vector<std::string> sounds;  ///< files to put in, one a clip; empty: none
   std::vector<AvatarClip> clips;    ///< at least one
-  std::string gain = "1";           ///< see studio::HeadChoice
 };
 
 /// Writes the file and prints what was done. Errors: those of gltf::animate_file() or

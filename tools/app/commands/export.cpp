@@ -102,8 +102,7 @@ Result<int> write_arkit(const ExportOptions& options, std::vector<std::uint8_t> 
 
 // A head of the user's own: its file, with the clips in it.
 Result<int> write_avatar(const ExportOptions& options, std::vector<std::uint8_t> bytes) {
-  AvatarExport job{options.head.head, options.output, options.audio, options.sounds, {},
-                   options.head.gain};
+  AvatarExport job{options.head, options.output, options.audio, options.sounds, {}};
   ExportOptions each = options;
   for (std::size_t i = 0; i <= options.more.size(); ++i) {
     if (i > 0) {

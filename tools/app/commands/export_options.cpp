@@ -69,7 +69,8 @@ void add_options(OptionTable& cli, ExportOptions& options) {
           "Sound to embed in your own .glb or .vrm, one per clip: any sound file, or the "
           "clip itself (talk.mp4); see the README of tools/view/gltf for players that "
           "support it");
-  for (const char* name : {"--head", "--points", "--morphs", "--normals", "--sound"}) {
+  for (const char* name : {"--head", "--points", "--shape-name", "--shape-names", "--morphs",
+                           "--normals", "--sound"}) {
     options.of_heads.push_back(cli.get(name));
   }
 }

@@ -295,6 +295,7 @@ Result<int> run(const HeadOptions& given) {
 void add_options(OptionTable& cli, HeadOptions& options) {
   cli.add("head", options.head.head, kHeadHelp)->show_default();
   cli.add("--points", options.head.points, kPointsHelp);
+  add_shape_options(cli, options.head);
   add_gain_option(cli, options.head)->help += "; default: auto for --speak-test, else 1";
   cli.add("--speak-test", options.speak_test,
           "Speak P B M AA IY UW with the head and measure: lips closed within 0.1 mm, UW 15 "

@@ -5,7 +5,8 @@ namespace animeme::tools {
 
 const char* const kHeadHelp =
     "woman, man or child, or your own head: .glb, .gltf or .vrm with ARKit blend shapes or "
-    "visemes, .obj with --points, .fdp (Xface), .xmt with an FDP";
+    "visemes, .obj with --points, a folder with neutral.obj and an .obj for each shape, .fdp "
+    "(Xface), .xmt with an FDP";
 const char* const kPointsHelp =
     "Table of feature points of your .obj or .glb: lines such as 2.1,966 (see animeme head --help)";
 
@@ -26,10 +27,19 @@ Option* add_gain_option(OptionTable& cli, studio::HeadChoice& choice) {
   return cli.add("--gain", choice.gain, kGainHelp)->type("0.25..4|auto")->check(problem_of_gain);
 }
 
+void add_shape_options(OptionTable& cli, studio::HeadChoice& choice) {
+  cli.add("--shape-name", choice.shape_names,
+          "Meaning of a morph target with another name: NAME=jawOpen (a shape of ARKit), "
+          "NAME=viseme_PP (a viseme); NAME=- leaves it at rest. May be repeated")
+      ->one_at_a_time();
+  cli.add("--shape-names", choice.shape_table, "The same as a table: shape,meaning")->value("FILE");
+}
+
 namespace {
 
 void add_shared_options(OptionTable& cli, studio::HeadChoice& choice) {
   cli.add("--points", choice.points, kPointsHelp);
+  add_shape_options(cli, choice);
   add_gain_option(cli, choice)->show_default();
 }
 

@@ -19,7 +19,10 @@ extern const char* const kPointsHelp;  ///< likewise
 /// Adds --gain.
 Option* add_gain_option(OptionTable& cli, studio::HeadChoice& choice);
 
-/// Adds --head, --points and --gain.
+/// Adds --shape-name and --shape-names.
+void add_shape_options(OptionTable& cli, studio::HeadChoice& choice);
+
+/// Adds --head, --points, --shape-name, --shape-names and --gain.
 void add_head_options(OptionTable& cli, studio::HeadChoice& choice);
 
 /// The same for several heads: --head takes a list, or is given several times; `heads` gets

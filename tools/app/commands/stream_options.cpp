@@ -145,7 +145,8 @@ void add_options(OptionTable& cli, StreamOptions& options) {
       "--tier --speaker --speak-marks --script-format --max-seconds --speed --pitch --seed --mtu "
       "--repeat --repeat-after "
       "--bundle --max-clients --max-per-address --allow-origin --host-name --delay --intra-seconds "
-      "--points --gain --copy --quant --sharpness --articulate --audio-codec --audio-bitrate");
+      "--points --shape-name --shape-names --gain --copy --quant --sharpness --articulate "
+      "--audio-codec --audio-bitrate");
 }
 
 }  // namespace animeme::tools

@@ -88,12 +88,11 @@ FileMotion::FileMotion(FileEdit& edit, const std::vector<Node>& nodes, const Fil
 }
 
 void FileMotion::find_meshes() {
-  const TargetNames expressions = vrm_expressions(edit_.file(), nodes_);
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     if (!nodes_[i].mesh) continue;
     MovedMesh mesh;
     mesh.node = i;
-    mesh.shapes = shapes_of_targets(edit_.file(), expressions, *nodes_[i].mesh, actor_.shape_names);
+    mesh.shapes = shapes_of_targets(edit_.file(), actor_, *nodes_[i].mesh);
     const bool any = std::any_of(mesh.shapes.begin(), mesh.shapes.end(),
                                  [](std::size_t shape) { return shape != kNoNode; });
     if (!any) continue;

@@ -28,6 +28,7 @@
 #include "fap/head/own_head.h"
 #include "fap/head/point_list.h"
 #include "fap/result.h"
+#include "tools/view/gltf/shape_rules.h"
 
 namespace animeme::gltf {
 
@@ -64,6 +65,9 @@ struct ReadOptions {
   LoadFile load = {};  ///< empty: referenced files cannot be read
   /// The set of shapes that moves the mouth if there are several.
   MouthShapes mouth = MouthShapes::automatic;
+  /// What names mean that are not known, or mean something else (shape_rules.h). These shapes go
+  /// before those of other names.
+  ShapeRules rules = {};
   /// Triangles are subdivided to represent textures by vertex colours, up to this number of
   /// vertices. 0: no subdivision; the head keeps its materials and textures, if any
   /// (Source::materials).
@@ -81,9 +85,9 @@ struct ReadOptions {
 /// Errors: syntax (not glTF; an invalid index, length or enumeration), truncated (the file ends too
 /// early), unsupported (glTF 1.0; Draco or meshopt compression and other required extensions: the
 /// message says what to export instead), not_found (a buffer that `load` cannot provide; no
-/// triangle), out_of_range (more than ReadOptions::limits, a million values in its JSON, or all
-/// memory). A head without known shapes is not an error; the caller must then provide its feature
-/// points.
+/// triangle; a rule for a name that no morph target has), out_of_range (more than
+/// ReadOptions::limits, a million values in its JSON, or all memory). A head without known shapes
+/// is not an error; the caller must then provide its feature points.
 Result<head::Source> read_head(std::span<const std::uint8_t> bytes,
                                const ReadOptions& options = {});
 
@@ -105,6 +109,7 @@ struct MeshVertices {
 struct HeadFile {
   head::Source source;               ///< as from read_head()
   std::vector<MeshVertices> meshes;  ///< of nodes that are shown, in their order
+  std::vector<std::string> unknown;  ///< names of morph targets that say nothing (shape_names.h)
 };
 
 /// read_head() with the vertex numbers of the file.

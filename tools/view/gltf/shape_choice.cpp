@@ -12,6 +12,22 @@ namespace {
 
 constexpr std::size_t kMouthShapes = 6;  // of ARKit's, with a jaw: they make a mouth
 
+// The convention of names that have a rule: those of the user.
+constexpr std::string_view kGiven = "given";
+
+bool is_given(const ShapeMeaning& meaning) { return meaning.house == kGiven; }
+
+// nullopt: unknown. A rule may say that a name means nothing; then it is `at_rest`.
+std::optional<ShapeMeaning> meaning_by(const ShapeRules& rules, const std::string& name,
+                                       bool& at_rest) {
+  const ShapeRule* const rule = find_rule(rules, name);
+  at_rest = rule != nullptr && rule->meaning == "-";
+  if (at_rest) return std::nullopt;
+  std::optional<ShapeMeaning> meaning = meaning_of(rule != nullptr ? rule->meaning : name);
+  if (meaning && rule != nullptr) meaning->house = kGiven;
+  return meaning;
+}
+
 std::string_view arkit_name(const ArkitPart& part) {
   return fap::kArkitNames[std::size_t(part.channel)];
 }
@@ -35,7 +51,7 @@ bool is_mood(const ShapeMeaning& meaning) {
 // What of ARKit's, without a jaw, would bend the visemes that open the mouth, and no sound needs.
 bool bends_visemes(const ShapeMeaning& meaning) {
   constexpr std::string_view kBend[] = {"mouthFrown", "mouthRollLower"};
-  if (meaning.set == ShapeSet::viseme || meaning.parts.empty()) return false;
+  if (meaning.set == ShapeSet::viseme || meaning.parts.empty() || is_given(meaning)) return false;
   return std::any_of(std::begin(kBend), std::end(kBend), [&](std::string_view name) {
     return arkit_name(meaning.parts.front()).starts_with(name);
   });
@@ -53,13 +69,12 @@ bool has_arkit_mouth(const std::vector<ChosenShape>& shapes) {
   return jaw && mouth >= int(kMouthShapes);
 }
 
-std::string list_of(const std::vector<std::string>& names) {
-  constexpr std::size_t kMost = 12;
+std::string list_of(const std::vector<std::string>& names, std::size_t most = 12) {
   std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i) {
+  for (std::size_t i = 0; i < std::min(names.size(), most); ++i) {
     text += (i == 0 ? "" : ", ") + names[i].substr(0, 60);
   }
-  if (names.size() > kMost) text += " and " + std::to_string(names.size() - kMost) + " more";
+  if (names.size() > most) text += " and " + std::to_string(names.size() - most) + " more";
   return text;
 }
 
@@ -95,6 +110,7 @@ std::map<std::string, std::size_t> sizes_of_houses(
   for (const auto& [house, keys] : houses) {
     // Of two conventions that are equally full, ARKit's.
     sizes[house] = 2 * keys.size() + (house == "arkit" ? 1 : 0);
+    if (house == kGiven) sizes[house] += meanings.size() * 5;
     if (house == "arkit" && jaw && mouth >= kMouthShapes) sizes[house] += meanings.size() * 2;
   }
   return sizes;
@@ -103,12 +119,13 @@ std::map<std::string, std::size_t> sizes_of_houses(
 // Names that mean the same are one shape, whose first names are those of the fullest convention.
 // The names of other conventions are `doubled`.
 std::vector<ChosenShape> known_shapes(const std::vector<std::string>& names,
-                                      std::vector<std::string>& unknown,
+                                      const ShapeRules& rules, std::vector<std::string>& unknown,
                                       std::vector<std::string>& doubled) {
   std::vector<std::optional<ShapeMeaning>> meanings;
   for (const std::string& name : names) {
-    meanings.push_back(meaning_of(name));
-    if (!meanings.back()) unknown.push_back(name);
+    bool at_rest = false;
+    meanings.push_back(meaning_by(rules, name, at_rest));
+    if (!meanings.back() && !at_rest) unknown.push_back(name);
   }
   std::map<std::string, std::size_t> sizes = sizes_of_houses(meanings);
   std::vector<ChosenShape> shapes;
@@ -145,16 +162,20 @@ void drop_doubles(std::vector<ChosenShape>& shapes, std::vector<std::string>& un
     });
   };
   std::vector<bool> keep(shapes.size(), false);
-  const auto take = [&](ShapeSet set, std::size_t parts) {
+  const auto take = [&](ShapeSet set, std::size_t parts, bool given = false) {
     for (std::size_t i = 0; i < shapes.size(); ++i) {
       const ShapeMeaning& meaning = shapes[i].meaning;
       if (meaning.mood > 0) keep[i] = true;
       if (keep[i] || meaning.set != set || (parts > 0 && meaning.parts.size() != parts)) continue;
+      if (given && !is_given(meaning)) continue;
       keep[i] = free(meaning);
       if (!keep[i]) continue;
       for (const ArkitPart& part : meaning.parts) taken[part.channel] |= quarters(part);
     }
   };
+  for (const ShapeSet set : {ShapeSet::arkit, ShapeSet::other, ShapeSet::viseme}) {
+    take(set, 0, true);
+  }
   take(ShapeSet::arkit, 1);
   take(ShapeSet::arkit, 0);
   for (std::size_t parts = 1; parts <= 3; ++parts) take(ShapeSet::other, parts);
@@ -172,6 +193,24 @@ void drop_doubles(std::vector<ChosenShape>& shapes, std::vector<std::string>& un
 
 }  // namespace
 
+std::vector<std::string> unknown_names(const std::vector<std::string>& names,
+                                       const ShapeRules& rules) {
+  std::vector<std::string> unknown;
+  for (const std::string& name : names) {
+    bool at_rest = false;
+    if (!meaning_by(rules, name, at_rest) && !at_rest) unknown.push_back(name);
+  }
+  return unknown;
+}
+
+std::string advice_on_names(const std::vector<std::string>& unknown) {
+  const std::string none = "no morph target has a known name (ARKit, visemes, VRM)";
+  if (unknown.empty()) return none;
+  return none + "; its names are " + list_of(unknown, 100) +
+         ": say what they mean with --shape-name " + unknown.front().substr(0, 60) +
+         "=jawOpen and so on";
+}
+
 head::ShapeControl control_of(const ChosenShape& shape) {
   const ShapeMeaning& meaning = shape.meaning;
   head::ShapeControl control{shape.name, meaning.faps};
@@ -184,10 +223,10 @@ head::ShapeControl control_of(const ChosenShape& shape) {
 }
 
 std::vector<ChosenShape> choose_shapes(const std::vector<std::string>& names, MouthShapes mouth,
-                                       std::vector<std::string>& notes) {
+                                       std::vector<std::string>& notes, const ShapeRules& rules) {
   std::vector<std::string> unknown;
   std::vector<std::string> unused;
-  std::vector<ChosenShape> shapes = known_shapes(names, unknown, unused);
+  std::vector<ChosenShape> shapes = known_shapes(names, rules, unknown, unused);
   const bool any_viseme = std::any_of(shapes.begin(), shapes.end(), [](const ChosenShape& shape) {
     return shape.meaning.set == ShapeSet::viseme;
   });

@@ -61,6 +61,13 @@ struct ChosenShape {
   std::vector<std::size_t> names;  ///< all its names, as indices of the list given
 };
 
+/// Names that neither meaning_of() nor a rule knows.
+std::vector<std::string> unknown_names(const std::vector<std::string>& names,
+                                       const ShapeRules& rules = {});
+
+/// A sentence for a file that nothing moves: which names it has, and what to do. `unknown`: these.
+std::string advice_on_names(const std::vector<std::string>& unknown);
+
 /// The shape as a control of a head.
 head::ShapeControl control_of(const ChosenShape& shape);
 
@@ -68,8 +75,10 @@ head::ShapeControl control_of(const ChosenShape& shape);
 /// (see MouthShapes), visemes have no FAPs and are used for FAP 1 only. Other names are used only
 /// for what no ARKit shape does. Of several names that mean the same, that of the convention with
 /// the most shapes counts, ARKit's if it has a mouth, and the others are its further names: for
-/// meshes that have only those. Unknown and unused shapes are noted.
+/// meshes that have only those. Unknown and unused shapes are noted. Names with a rule mean what
+/// that says, and go before all others; rules for other names are ignored (check_rules()).
 std::vector<ChosenShape> choose_shapes(const std::vector<std::string>& names, MouthShapes mouth,
-                                       std::vector<std::string>& notes);
+                                       std::vector<std::string>& notes,
+                                       const ShapeRules& rules = {});
 
 }  // namespace animeme::gltf

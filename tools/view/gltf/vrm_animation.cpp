@@ -45,12 +45,11 @@ std::optional<ShownShape> shown_shape(const Json& json, const std::vector<Node>&
 // For each shape the first of its expressions, VRM's own before others; none of the gaze.
 std::vector<ShownShape> shown_shapes(const File& file, const std::vector<Node>& nodes,
                                      const FileActor& actor) {
-  const TargetNames expressions = vrm_expressions(file, nodes);
   std::vector<std::vector<std::size_t>> targets;
   for (const Node& node : nodes) {
     targets.emplace_back();
     if (!node.mesh) continue;
-    targets.back() = shapes_of_targets(file, expressions, *node.mesh, actor.shape_names);
+    targets.back() = shapes_of_targets(file, actor, *node.mesh);
   }
   std::vector<ShownShape> all;
   std::set<std::size_t> taken;

@@ -64,6 +64,16 @@ Camera look_at(const head::Head& head, double left_degrees, double up_degrees, d
   return camera;
 }
 
+Camera fit_to(Camera camera, int width, int height) {
+  constexpr double kNarrow = 0.74;
+  const double aspect = double(std::max(width, 1)) / std::max(height, 1);
+  if (aspect < kNarrow) {
+    camera.view_angle =
+        float(2 * std::atan(std::tan(double(camera.view_angle) / 2) * kNarrow / aspect));
+  }
+  return camera;
+}
+
 std::optional<double> view_degrees(std::string_view text) {
   if (text == "front") return 0;
   if (text == "three-quarter") return 35;

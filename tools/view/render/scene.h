@@ -17,6 +17,11 @@ Scene scene_of(const head::Head& head, const head::Rig& rig, const head::Pose& p
 /// and up. `zoom` 1 shows head and shoulders; larger values move closer.
 Camera look_at(const head::Head& head, double left_degrees, double up_degrees = 0, double zoom = 1);
 
+/// The same camera for a picture of this size in pixels: one that is narrower than 0.74 of its
+/// height sees more, so that hair and ears are not cut off. The page does the same
+/// (viewer/js/camera.js).
+Camera fit_to(Camera camera, int width, int height);
+
 /// Degrees of "front" (0), "three-quarter" (35), "side" (90) or a number; otherwise nullopt.
 std::optional<double> view_degrees(std::string_view text);
 

@@ -14,7 +14,9 @@
 #include "fap/xml/xmt.h"
 #include "tools/formats/files/file_cache.h"
 #include "tools/formats/files/files.h"
+#include "tools/view/gltf/obj_folder.h"
 #include "tools/view/gltf/read_head.h"
+#include "tools/view/gltf/shape_names.h"
 #include "tools/view/studio/head_store.h"
 #include "tools/view/studio/speak_check.h"
 
@@ -22,13 +24,20 @@ namespace animeme::studio {
 namespace {
 
 constexpr const char* kOurs = "woman, man or child";
+constexpr const char* kNamesOfShapes =
+    "--shape-name and --shape-names are for a .glb, .gltf, .vrm or folder with shapes; give one "
+    "with "
+    "--head";
 
 // What a file name says of its format.
-enum class Format : std::uint8_t { none, obj, gltf, fdp, xmt };
+enum class Format : std::uint8_t { none, obj, folder, gltf, fdp, xmt };
 
 Format format_of(const std::string& path) {
-  const std::string kind = tools::extension_of(path);
-  if (kind == ".obj") return Format::obj;
+  std::error_code unknown;
+  if (std::filesystem::is_directory(path, unknown)) return Format::folder;
+  std::string kind = tools::extension_of(path);
+  if (kind == ".gz") kind = tools::extension_of(path.substr(0, path.size() - kind.size())) + kind;
+  if (kind == ".obj" || kind == ".obj.gz") return Format::obj;
   if (kind == ".glb" || kind == ".gltf" || kind == ".vrm") return Format::gltf;
   if (kind == ".fdp") return Format::fdp;
   if (kind == ".xmt" || kind == ".xmta") return Format::xmt;
@@ -44,7 +53,7 @@ Result<std::vector<head::PointRow>> read_point_list(const std::string& path) {
 }
 
 Result<head::Source> read_obj_head(const HeadChoice& choice) {
-  const Result<std::string> text = tools::read_text_file(choice.head);
+  const Result<std::string> text = gltf::read_obj_text(choice.head);
   if (!text) return text.error();
   Result<head::ObjFile> file = head::read_obj(*text);
   if (!file) return file.error().in_file(choice.head);
@@ -58,18 +67,45 @@ Result<head::Source> read_obj_head(const HeadChoice& choice) {
   return source;
 }
 
-Result<head::Source> read_gltf_head(const HeadChoice& choice) {
+// The points say where the face is; its shapes move it.
+Result<head::Source> read_folder_head(const HeadChoice& choice) {
+  gltf::ReadOptions options;
+  options.vertices = 0;  // there are no textures
+  auto rules = gltf::shape_rules_of(choice.shape_names, choice.shape_table);
+  if (!rules) return rules.error();
+  options.rules = std::move(*rules);
+  Result<gltf::HeadFile> file = gltf::read_obj_folder(choice.head, std::move(options));
+  if (!file) return file.error();
+  if (!choice.points.empty()) {
+    const Result<std::vector<head::PointRow>> rows = read_point_list(choice.points);
+    if (!rows) return rows.error();
+    Result<std::vector<head::PiecePoint>> points = gltf::points_on(*file, *rows);
+    if (!points) return points.error().in_file(choice.points);
+    file->source.points = std::move(*points);
+  } else if (file->source.shapes.empty()) {
+    return make_error(Code::not_found,
+                      "nothing says how its face moves: " + gltf::advice_on_names(file->unknown) +
+                          "; with --points LIST its points move it")
+        .in_file(choice.head);
+  }
+  return std::move(file->source);
+}
+
+Result<head::Source> read_gltf_head(const HeadChoice& choice, std::string& advice) {
   gltf::ReadOptions options;
   if (!choice.colours_at_vertices) options.vertices = 0;
+  auto rules = gltf::shape_rules_of(choice.shape_names, choice.shape_table);
+  if (!rules) return rules.error();
+  options.rules = std::move(*rules);
   Result<gltf::HeadFile> file = gltf::read_head_and_vertices(choice.head, std::move(options));
   if (!file) return file.error();
   if (choice.points.empty()) {
     const head::Source& source = file->source;
+    if (source.shapes.empty()) advice = gltf::advice_on_names(file->unknown);
     if (source.shapes.empty() && source.points.empty() && !source.eyes[0]) {
-      return make_error(Code::not_found,
-                        "there is no face in it: no morph target has a known name (ARKit, "
-                        "visemes, VRM), and nothing in it is an eye; with --points LIST a head is "
-                        "made of its mesh")
+      return make_error(Code::not_found, "there is no face in it: nothing in it is an eye, and " +
+                                             gltf::advice_on_names(file->unknown) +
+                                             "; with --points LIST a head is made of its mesh")
           .in_file(choice.head);
     }
     return std::move(file->source);
@@ -103,10 +139,12 @@ Result<head::Source> read_xml_head(const HeadChoice& choice, Format format) {
   return source;
 }
 
-Result<head::Source> read_source(const HeadChoice& choice) {
+// `advice`: on names of shapes, if they alone do not make a head.
+Result<head::Source> read_source(const HeadChoice& choice, std::string& advice) {
   const Format format = format_of(choice.head);
   if (format == Format::obj) return read_obj_head(choice);
-  if (format == Format::gltf) return read_gltf_head(choice);
+  if (format == Format::folder) return read_folder_head(choice);
+  if (format == Format::gltf) return read_gltf_head(choice, advice);
   return read_xml_head(choice, format);
 }
 
@@ -118,11 +156,18 @@ Result<LoadedHead> load_as_it_is(const HeadChoice& choice) {
     loaded.head = std::move(*made);
     return loaded;
   }
-  Result<head::Source> source = read_source(choice);
+  std::string advice;
+  Result<head::Source> source = read_source(choice, advice);
   if (!source) return source.error();
-  source->name = std::filesystem::path(choice.head).stem().string();
+  if (source->name.empty() || format_of(choice.head) != Format::folder) {
+    source->name = std::filesystem::path(choice.head).stem().string();
+  }
   Result<head::Head> made = head::assemble(std::move(*source), &loaded.notes);
-  if (!made) return made.error().in_file(choice.head);
+  if (!made) {
+    Error error = made.error();
+    if (!advice.empty()) error.message = advice + ". " + error.message;
+    return std::move(error).in_file(choice.head);
+  }
   loaded.head = std::move(*made);
   return loaded;
 }
@@ -149,6 +194,7 @@ std::string problem_of(const HeadChoice& choice) {
     return "--gain is auto or a number from 0.25 to 4, not \"" + choice.gain + "\"";
   }
   if (head::head_parameters(choice.head)) {
+    if (choice.names_shapes()) return kNamesOfShapes;
     if (choice.points.empty()) return "";
     return "--points is for custom heads; give the file with --head";
   }
@@ -159,13 +205,23 @@ std::string problem_of(const HeadChoice& choice) {
   const Format format = format_of(choice.head);
   if (format == Format::none) {
     return "--head " + choice.head +
-           ": a head of your own is a .glb, .gltf, .vrm, .fdp or .xmt file, or an .obj with "
-           "--points";
+           ": a head of your own is a .glb, .gltf, .vrm, .fdp or .xmt file, an .obj with "
+           "--points, or a folder with neutral.obj and an .obj for each shape";
   }
   if (format == Format::obj && choice.points.empty()) {
     return "an .obj does not define where its face is: add --points LIST, a text with lines such "
            "as "
            "2.1,966 (feature point, vertex counted from 0)";
+  }
+  if (choice.names_shapes()) {
+    if (format != Format::gltf && format != Format::folder) return kNamesOfShapes;
+    if (!choice.points.empty() && format == Format::gltf) {
+      return "--shape-name is for heads that their shapes move; with --points these do nothing";
+    }
+    for (const std::string& text : choice.shape_names) {
+      const auto rule = gltf::shape_rules_of({text}, "");
+      if (!rule) return rule.error().message;
+    }
   }
   if ((format == Format::fdp || format == Format::xmt) && !choice.points.empty()) {
     return "--points is for .obj and .glb; " + choice.head + " has its own points";
@@ -200,8 +256,9 @@ Result<LoadedHead> load_head(const HeadChoice& choice) {
 
 Result<head::Head> load_head(const HeadChoice& choice, const tools::Log& log) {
   static tools::FileCache<LoadedHead> cache;  // batches ask again and again
-  const std::string how =
-      choice.points + "\n" + choice.gain + (choice.colours_at_vertices ? "c" : "");
+  std::string how = choice.points + "\n" + choice.gain + (choice.colours_at_vertices ? "c" : "") +
+                    "\n" + choice.shape_table;
+  for (const std::string& rule : choice.shape_names) how += "\n" + rule;
   Result<LoadedHead> loaded = cache.get(choice.head, how, [&] { return load_head(choice); });
   if (!loaded) return loaded.error();
   for (const std::string& note : loaded->notes) log.info(choice.head + ": " + note);

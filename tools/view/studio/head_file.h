@@ -12,15 +12,21 @@
 
 namespace animeme::studio {
 
-/// Options --head, --points and --gain.
+/// Options --head, --points, --shape-name, --shape-names and --gain.
 struct HeadChoice {
   std::string head = "woman";  ///< one of head::kHeadNames, or a file
   std::string points;          ///< list of feature points; see fap/head/point_list.h
+  /// What morph targets with other names mean, "NAME=jawOpen"; see gltf/shape_rules.h.
+  std::vector<std::string> shape_names;
+  std::string shape_table;  ///< a file with the same as a table; empty: none
   std::string gain = "1";  ///< Head::mouth_gain, or "auto": speaking_gain() of speak_check.h; 1 and
                            ///< a note if the mouth cannot be measured
   /// Subdivide triangles so that vertex colours represent textures, for formats without materials.
   /// Not needed for pictures and pages.
   bool colours_at_vertices = false;
+
+  /// Whether names of shapes are given.
+  bool names_shapes() const { return !shape_names.empty() || !shape_table.empty(); }
 };
 
 /// A head with notes.
@@ -37,9 +43,10 @@ std::optional<double> gain_of(const std::string& text);
 std::string problem_of(const HeadChoice& choice);
 
 /// Makes or reads a head. Files: .glb, .gltf, .vrm (moved by their shapes, or by points if given),
-/// .obj (with points), .fdp, .xmt and .xmta. Referenced files are read from their folder and below,
-/// see gltf::files_of(). Errors: invalid_argument with problem_of(), and those of the readers, with
-/// the file; out_of_range if memory is insufficient.
+/// .obj or .obj.gz (with points), folders of OBJ (gltf/obj_folder.h; points improve them), .fdp,
+/// .xmt and .xmta. Referenced files are read from their folder and below, see gltf::files_of().
+/// Errors: invalid_argument with problem_of(), and those of the readers, with the file;
+/// out_of_range if memory is insufficient.
 Result<LoadedHead> load_head(const HeadChoice& choice);
 
 /// The same; each note goes to log.info, after the file name.

@@ -14,7 +14,8 @@ struct HeadView::State {
   State(head::Head made, const HeadLook& look)
       : head(std::move(made)),
         rig(head::make_rig(head)),
-        camera(render::look_at(head, look.degrees, look.up, look.zoom)),
+        camera(render::fit_to(render::look_at(head, look.degrees, look.up, look.zoom), look.width,
+                              look.height)),
         renderer({.width = look.width, .height = look.height}) {}
 
   head::Head head;

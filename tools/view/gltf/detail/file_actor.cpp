@@ -38,25 +38,28 @@ head::Rig without_meshes(head::Rig rig) {
   return bare;
 }
 
-FileActor actor_by_names(const File& file, const std::vector<Node>& nodes, MouthShapes mouth) {
+Result<FileActor> actor_by_names(const File& file, const std::vector<Node>& nodes,
+                                 const ReadOptions& options) {
   FileActor actor;
   std::vector<std::string> names;
-  std::set<std::string> known;
+  std::set<std::string> seen;
   std::set<std::size_t> meshes;
-  const TargetNames expressions = vrm_expressions(file, nodes);
+  actor.expressions = vrm_expressions(file, nodes, options.rules);
   for (const Node& node : nodes) {
     if (!node.mesh || !meshes.insert(*node.mesh).second) continue;
     const Json& primitive = first_primitive(file, *node.mesh);
     for (std::size_t t = 0; t < target_count(primitive); ++t) {
-      std::string name = target_name(file, expressions, *node.mesh, primitive, t);
-      if (known.insert(name).second) names.push_back(std::move(name));
+      std::string name = target_name(file, actor.expressions, *node.mesh, primitive, t);
+      if (seen.insert(name).second) names.push_back(std::move(name));
     }
   }
-  for (const ChosenShape& shape : choose_shapes(names, mouth, actor.notes)) {
+  if (auto known = check_rules(options.rules, names); !known) return known.error();
+  for (const ChosenShape& shape : choose_shapes(names, options.mouth, actor.notes, options.rules)) {
     actor.rig.shapes.push_back(control_of(shape));
     actor.shape_names.emplace_back();
     for (const std::size_t name : shape.names) actor.shape_names.back().push_back(names[name]);
   }
+  actor.unknown = unknown_names(names, options.rules);
   actor.joints = find_joints(file, nodes);
   // Whether skin hangs on it is not known.
   actor.joints.jaw = kNoNode;
@@ -74,6 +77,7 @@ Result<FileActor> file_actor(std::span<const std::uint8_t> bytes, const File& fi
   FileActor actor;
   if (moved) {
     const bool any = !moved->file.source.shapes.empty();
+    actor.unknown = moved->file.unknown;
     // Shadows, which would be looked for, show no motion.
     for (head::Piece& piece : moved->file.source.pieces) {
       piece.mesh.occlusion.assign(piece.mesh.positions.size(), 1);
@@ -82,6 +86,7 @@ Result<FileActor> file_actor(std::span<const std::uint8_t> bytes, const File& fi
     if (head) {
       actor.rig = without_meshes(head::make_rig(*head));
       actor.shape_names = std::move(moved->shape_names);
+      actor.expressions = vrm_expressions(file, nodes, options.rules);
       actor.joints = std::move(moved->joints);
       actor.axes = moved->axes;
       actor.unit = head->centimetres;
@@ -94,7 +99,9 @@ Result<FileActor> file_actor(std::span<const std::uint8_t> bytes, const File& fi
     return moved.error();
   }
   if (!reason.empty()) {
-    actor = actor_by_names(file, nodes, options.mouth);
+    Result<FileActor> named = actor_by_names(file, nodes, options);
+    if (!named) return named.error();
+    actor = std::move(*named);
     actor.notes.push_back(
         "its meshes cannot be looked at, so it is moved by the names of its shapes and bones, and "
         "lips may close less exactly (" +
@@ -102,21 +109,22 @@ Result<FileActor> file_actor(std::span<const std::uint8_t> bytes, const File& fi
   }
   if (actor.rig.shapes.empty()) {
     return make_error(Code::not_found,
-                      "no morph target has a name that is known (ARKit, visemes, VRM), so nothing "
-                      "in this file can speak; with --points LIST a head is made of it that can");
+                      advice_on_names(actor.unknown) +
+                          ". So nothing in this file can speak; with --points LIST a head is made "
+                          "of it that can");
   }
   return actor;
 }
 
-std::vector<std::size_t> shapes_of_targets(const File& file, const TargetNames& expressions,
-                                           std::size_t mesh,
-                                           const std::vector<std::vector<std::string>>& names) {
+std::vector<std::size_t> shapes_of_targets(const File& file, const FileActor& actor,
+                                           std::size_t mesh) {
+  const std::vector<std::vector<std::string>>& names = actor.shape_names;
   const Json& primitive = first_primitive(file, mesh);
   std::vector<std::size_t> shapes(target_count(primitive), kNoNode);
   // Of several names of one shape in a mesh the first one shows it: all of them would add up.
   std::vector<std::pair<std::size_t, std::size_t>> taken(names.size(), {kNoNode, kNoNode});
   for (std::size_t t = 0; t < shapes.size(); ++t) {
-    const std::string name = target_name(file, expressions, mesh, primitive, t);
+    const std::string name = target_name(file, actor.expressions, mesh, primitive, t);
     for (std::size_t s = 0; s < names.size(); ++s) {
       const auto place = std::find(names[s].begin(), names[s].end(), name);
       if (place == names[s].end()) continue;

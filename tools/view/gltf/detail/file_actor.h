@@ -16,9 +16,11 @@ namespace animeme::gltf {
 struct FileActor {
   head::Rig rig;  ///< without its meshes: for control_values() and bones_of()
   std::vector<std::vector<std::string>> shape_names;  ///< see MovedHead
+  TargetNames expressions;                            ///< see vrm_expressions()
   HeadJoints joints;                                  ///< those that the rig turns
   std::array<head::Vec3, 3> axes = {head::Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  double unit = 100;  ///< cm of one unit of the file
+  double unit = 100;                 ///< cm of one unit of the file
+  std::vector<std::string> unknown;  ///< see HeadFile
   std::vector<std::string> notes;
 };
 
@@ -29,9 +31,8 @@ struct FileActor {
 Result<FileActor> file_actor(std::span<const std::uint8_t> bytes, const File& file,
                              const std::vector<Node>& nodes, const ReadOptions& options);
 
-/// Which shape (an index of `shape_names`, kNoNode: none) each morph target of a mesh shows.
-std::vector<std::size_t> shapes_of_targets(const File& file, const TargetNames& expressions,
-                                           std::size_t mesh,
-                                           const std::vector<std::vector<std::string>>& names);
+/// Which shape (an index of `actor.shape_names`, kNoNode: none) each morph target of a mesh shows.
+std::vector<std::size_t> shapes_of_targets(const File& file, const FileActor& actor,
+                                           std::size_t mesh);
 
 }  // namespace animeme::gltf

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "tools/view/gltf/detail/arms.h"
 #include "tools/view/gltf/detail/paint.h"
 #include "tools/view/gltf/detail/point_guess.h"
 #include "tools/view/gltf/detail/primitive.h"
@@ -25,10 +26,11 @@ class HeadReader {
     auto nodes = read_nodes(file_);
     if (!nodes) return nodes.error();
     joints_ = find_joints(file_, *nodes);
+    lower_arms(file_, *nodes);
     const bool keep_materials = options_.vertices == 0;
     Paints paints(file_, options_.load, source_.notes, keep_materials);
     ShapeNames names;
-    auto pieces = MeshReader(file_, *nodes, joints_, paints).read(names);
+    auto pieces = MeshReader(file_, *nodes, joints_, paints, options_.rules).read(names);
     if (!pieces) return pieces.error();
     pieces_ = std::move(*pieces);
     if (options_.vertices > 0) refine(pieces_, options_.vertices);
@@ -44,7 +46,8 @@ class HeadReader {
     if (pieces_.empty()) {
       return make_error(Code::not_found, "there is no triangle to show in the file");
     }
-    shapes_ = choose_shapes(names.names(), options_.mouth, source_.notes);
+    if (auto known = check_rules(options_.rules, names.names()); !known) return known.error();
+    shapes_ = choose_shapes(names.names(), options_.mouth, source_.notes, options_.rules);
     shape_of_name_.assign(names.names().size(), kNone);
     rank_of_name_.assign(names.names().size(), 0);
     for (std::size_t i = 0; i < shapes_.size(); ++i) {
@@ -70,7 +73,10 @@ class HeadReader {
       for (const std::size_t name : shape.names) shape_names.back().push_back(names.names()[name]);
     }
     return MovedHead{
-        {std::move(source_), std::move(meshes_)}, std::move(shape_names), turning_joints(), axes_};
+        {std::move(source_), std::move(meshes_), unknown_names(names.names(), options_.rules)},
+        std::move(shape_names),
+        turning_joints(),
+        axes_};
   }
 
  private:

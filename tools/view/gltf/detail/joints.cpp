@@ -37,15 +37,6 @@ int side_of(const std::vector<std::string>& words) {
   return -1;
 }
 
-// VRM 0.x has a list, VRM 1.0 an object.
-std::size_t vrm_bone(const File& file, const char* name) {
-  for (const Json& bone : list(member(file.root, "extensions", "VRM", "humanoid"), "humanBones")) {
-    if (text_or(member(bone, "bone")) == name) return whole_or(member(bone, "node"), kNoNode);
-  }
-  return whole_or(
-      member(file.root, "extensions", "VRMC_vrm", "humanoid", "humanBones", name, "node"), kNoNode);
-}
-
 // Nodes that skins use, or all but meshes if there is no skin.
 std::vector<bool> joint_nodes(const File& file, const std::vector<Node>& nodes) {
   std::vector<bool> bones(nodes.size(), false);
@@ -105,10 +96,19 @@ void sort_neck(const std::vector<Node>& nodes, HeadJoints& joints) {
 
 }  // namespace
 
+// VRM 0.x has a list, VRM 1.0 an object.
+std::size_t human_bone(const File& file, const char* name) {
+  for (const Json& bone : list(member(file.root, "extensions", "VRM", "humanoid"), "humanBones")) {
+    if (text_or(member(bone, "bone")) == name) return whole_or(member(bone, "node"), kNoNode);
+  }
+  return whole_or(
+      member(file.root, "extensions", "VRMC_vrm", "humanoid", "humanBones", name, "node"), kNoNode);
+}
+
 HeadJoints find_joints(const File& file, const std::vector<Node>& nodes) {
   HeadJoints joints;
   const auto known = [&](const char* name) {
-    const std::size_t bone = vrm_bone(file, name);
+    const std::size_t bone = human_bone(file, name);
     return bone < nodes.size() ? bone : kNoNode;
   };
   joints.head = known("head");

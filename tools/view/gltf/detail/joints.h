@@ -19,6 +19,9 @@ struct HeadJoints {
   std::size_t jaw = kNoNode;
 };
 
+/// The node of a bone of VRM's humanoid ("leftUpperArm"); kNoNode: the file does not say.
+std::size_t human_bone(const File& file, const char* name);
+
 HeadJoints find_joints(const File& file, const std::vector<Node>& nodes);
 
 /// For each node: how far it turns with the head: 1 for the head and all below, in equal steps from

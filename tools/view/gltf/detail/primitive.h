@@ -70,13 +70,13 @@ class ShapeNames {
 class MeshReader {
  public:
   MeshReader(const File& file, const std::vector<Node>& nodes, const HeadJoints& joints,
-             Paints& paints)
+             Paints& paints, const ShapeRules& rules)
       : file_(file),
         nodes_(nodes),
         shares_(neck_shares(nodes, joints)),
         jaw_(nodes_below(nodes, joints.jaw)),
         paints_(paints),
-        expressions_(vrm_expressions(file, nodes)) {}
+        expressions_(vrm_expressions(file, nodes, rules)) {}
 
   /// Errors: see read_head().
   Result<std::vector<RawPiece>> read(ShapeNames& names);

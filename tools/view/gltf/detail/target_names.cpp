@@ -21,6 +21,13 @@ std::string own_name(const File& file, const Json& mesh, const Json& primitive,
 
 }  // namespace
 
+std::string own_target_name(const File& file, std::size_t mesh, std::size_t target) {
+  const Json& entry = file.entry("meshes", mesh);
+  const std::span<const Json> primitives = list(entry, "primitives");
+  static const Json none;
+  return own_name(file, entry, primitives.empty() ? none : primitives.front(), target);
+}
+
 std::string target_name(const File& file, const TargetNames& expressions, std::size_t mesh,
                         const Json& primitive, std::size_t target) {
   std::string name = own_name(file, file.entry("meshes", mesh), primitive, target);

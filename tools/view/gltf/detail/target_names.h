@@ -8,6 +8,9 @@
 
 namespace animeme::gltf {
 
+/// The name that a morph target has itself, by its mesh's first primitive; see target_name().
+std::string own_target_name(const File& file, std::size_t mesh, std::size_t target);
+
 /// Its own name if that is known; else that of the expression of a VRM file (vrm_expressions())
 /// which it shows. Own names: of the mesh, as nearly all programs write them; of the primitive
 /// (UniGLTF); of the accessor; else "target 7".

@@ -1,5 +1,7 @@
 #include "tools/view/gltf/detail/vrm.h"
 
+#include "tools/view/gltf/detail/target_names.h"
+
 namespace animeme::gltf {
 namespace {
 
@@ -17,9 +19,7 @@ void add(const std::string& name, const std::vector<Bind>& binds, TargetNames& n
   }
 }
 
-}  // namespace
-
-TargetNames vrm_expressions(const File& file, const std::vector<Node>& nodes) {
+TargetNames all_expressions(const File& file, const std::vector<Node>& nodes) {
   TargetNames names;
   const Json& old = member(file.root, "extensions", "VRM", "blendShapeMaster");
   for (const Json& group : list(old, "blendShapeGroups")) {
@@ -43,6 +43,19 @@ TargetNames vrm_expressions(const File& file, const std::vector<Node>& nodes) {
     }
     add(name, binds, names);
   }
+  return names;
+}
+
+}  // namespace
+
+TargetNames vrm_expressions(const File& file, const std::vector<Node>& nodes,
+                            const ShapeRules& rules) {
+  TargetNames names = all_expressions(file, nodes);
+  if (rules.empty()) return names;
+  std::erase_if(names, [&](const auto& entry) {
+    const auto& [mesh, target] = entry.first;
+    return find_rule(rules, own_target_name(file, mesh, target)) != nullptr;
+  });
   return names;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tools/view/gltf/detail/nodes.h"
+#include "tools/view/gltf/shape_rules.h"
 
 namespace animeme::gltf {
 
@@ -14,7 +15,8 @@ using TargetNames = std::map<std::pair<std::size_t, std::size_t>, std::string>;
 
 /// Names of expressions ("aa", "blinkLeft"; in VRM 0.x "a", "blink_l") by the mesh and the number
 /// of the morph target that shows them. Expressions that need several targets of one mesh, or a
-/// part of one, are left out.
-TargetNames vrm_expressions(const File& file, const std::vector<Node>& nodes);
+/// part of one, are left out; so are targets whose own names have a rule.
+TargetNames vrm_expressions(const File& file, const std::vector<Node>& nodes,
+                            const ShapeRules& rules);
 
 }  // namespace animeme::gltf
