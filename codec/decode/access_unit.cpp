@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "codec/decode/decoder.h"
+#include "codec/decode/unit_writer_internal.h"
 #include "codec/syntax/bits.h"
 #include "codec/syntax/plane.h"
 
@@ -81,23 +82,6 @@ std::vector<std::uint8_t> configuration(std::uint8_t profile) {
   return out.take();
 }
 
-// A bit shift to behind a plane start code; `offset` is the bit of stream[0] in the whole.
-std::vector<std::uint8_t> repack(std::span<const std::uint8_t> stream, const Plane& plane,
-                                 bool first) {
-  BitWriter out;
-  if (first) {
-    out.start_code(kObjectStart);
-    out.stuff();
-  }
-  out.start_code(kPlaneStart);
-  BitReader in(stream, std::size_t(plane.bit_begin));
-  std::int64_t left = plane.bit_end - plane.bit_begin;
-  for (; left >= 32; left -= 32) out.bits(in.bits(32), 32);
-  out.bits(in.bits(int(left)), int(left));
-  out.stuff();
-  return out.take();
-}
-
 }  // namespace
 
 Result<AccessUnits> split_access_units(std::span<const std::uint8_t> stream) {
@@ -112,7 +96,7 @@ Result<AccessUnits> split_access_units(std::span<const std::uint8_t> stream) {
   const double start = planes.front().seconds;
   for (std::size_t i = 0; i < planes.size(); ++i) {
     AccessUnit unit;
-    unit.bytes = repack(stream, planes[i], i == 0);
+    unit.bytes = internal::write_unit(stream, planes[i].bit_begin, planes[i].bit_end, i == 0);
     unit.intra = planes[i].intra;
     if (base.frame > 0) {
       unit.time = (planes[i].number - planes.front().number) * base.frame;

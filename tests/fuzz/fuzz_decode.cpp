@@ -1,8 +1,11 @@
-// Any bytes: the decoder ends, decode() agrees with it, and access units can be made.
+// Any bytes: the decoder ends, decode() agrees with it, access units can be made, and what
+// repair_stream() makes of them decodes.
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 
 #include "codec/decode/access_unit.h"
+#include "codec/decode/repair.h"
 #include "tests/fuzz/event_trace.h"
 
 namespace {
@@ -37,5 +40,18 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   const auto units = fba::split_access_units(bytes);
   require(units.has_value() == decoded.has_value());
+  const auto repaired = fba::repair_stream(bytes);
+  if (repaired) {
+    require(!repaired->damage.empty() || std::ranges::equal(repaired->stream, bytes));
+    require(!repaired->damage.empty() || decoded.has_value());
+    if (!repaired->damage.empty()) require(fba::decode(repaired->stream).has_value());
+  } else {
+    require(!decoded);
+  }
+  if (units) {
+    fba::AccessUnits copy = *units;
+    const auto damage = fba::repair_units(copy);
+    require(damage.has_value() && damage->empty() == (copy == *units));
+  }
   return 0;
 }

@@ -34,7 +34,8 @@ struct MotionInput : exchange::Motion {
 Result<std::vector<std::uint8_t>> read_input(const std::string& path);
 /// Whether an input is a file that can be read again, and from any place in it.
 bool is_on_disk(const std::string& path);
-/// The container or playlist that read_input() found. Errors: those of media::read_container().
+/// The container or playlist that read_input() found; its warnings and damage are printed. Errors:
+/// those of media::read_container().
 Result<media::Container> open_container(std::span<const std::uint8_t> bytes,
                                         const std::string& path);
 

@@ -4,6 +4,7 @@
 
 #include "fap/detail/walk.h"
 #include "tools/app/commands/common.h"
+#include "tools/app/commands/damage.h"
 #include "tools/app/commands/plane_file.h"
 #include "tools/formats/inspect/comparison.h"
 
@@ -33,6 +34,12 @@ class Side {
     kind_ = FileKind::fba_stream;
     if (PlaneFile::can_read(path)) {
       file_.emplace(path);
+      // Walked side by side with another, so damage has to be known before.
+      std::vector<std::string> doubts;
+      const auto pass = [](const fba::Plane&) { return Result<void>(); };
+      if (!file_->for_each(pass, &doubts) || !doubts.empty()) {
+        if (auto repaired = file_->repaired(path)) file_ = std::move(*repaired);
+      }
       told_ = false;
     } else {
       Result<MotionInput> input = read_motion(path);
@@ -188,8 +195,9 @@ Result<int> run(const CompareOptions& options) {
   if (auto ok = b.open(options.b); !ok) return ok.error();
   const Result<inspect::Comparison> comparison = compare(a, b);
   if (!comparison) return comparison.error();
-  const std::string text = options.json ? inspect::comparison_json(*comparison) + "\n"
-                                        : inspect::comparison_text(*comparison);
+  const std::string text = options.json
+                               ? inspect::comparison_json(*comparison, damage_reported()) + "\n"
+                               : inspect::comparison_text(*comparison);
   std::fputs(text.c_str(), stdout);
   const auto accepted = [&](const auto& difference) {
     if (options.max_rms < 0 || !difference) return !difference || difference->equal();

@@ -47,7 +47,8 @@ std::function<Result<void>(const TakeFrame&)> planes_of(
   };
 }
 
-// Goes through a stream for the first time: what it has, its rate, its errors.
+// Goes through a stream for the first time: what it has, its rate, its errors. A damaged one is
+// repaired.
 Result<Decoded> look_at(const PlaneFile& file, DecodeOptions& options) {
   Decoded decoded;
   decoded.motion.kind = FileKind::fba_stream;
@@ -63,6 +64,12 @@ Result<Decoded> look_at(const PlaneFile& file, DecodeOptions& options) {
   FaceText text = options.face;
   text.frames = planes_of(file, note, &warnings);
   Result<FaceExtent> extent = extent_of(text);
+  if (!extent || !warnings.empty()) {
+    if (const auto repaired = file.repaired(options.input)) {
+      options.face.frames = planes_of(*repaired);
+      return look_at(*repaired, options);
+    }
+  }
   if (!extent) return std::move(extent).error().in_file(options.input);
   decoded.extent = *extent;
   for (const std::string& warning : warnings) warn(options.input + ": " + warning);

@@ -22,9 +22,8 @@ struct DemuxOptions {
 };
 
 Result<Json> write_face(const DemuxOptions& options) {
-  Result<media::Container> container = media::read_container(options.input);
+  Result<media::Container> container = open_container({}, options.input);
   if (!container) return container.error().in_file(options.input);
-  for (const std::string& text : container->warnings) warn(options.input + ": " + text);
   const fba::AccessUnits& face = container->face;
   const auto stream = fba::join_access_units(face, options.headers);
   if (auto written = write_file(options.face, stream); !written) return written.error();

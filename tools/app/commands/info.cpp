@@ -32,8 +32,13 @@ Result<Json> describe_coded(const InfoOptions& options, PlaneFile file, Descript
   Json list = Json::array();
   for (;;) {
     const Result<const fba::Plane*> plane = reader.next();
+    const bool ends = plane && *plane == nullptr;
+    if (!plane || (ends && !reader.warnings().empty())) {
+      auto repaired = file.repaired(options.input);
+      if (repaired) return describe_coded(options, std::move(*repaired), out);
+    }
     if (!plane) return plane.error();
-    if (*plane == nullptr) break;
+    if (ends) break;
     extent.add(**plane);
     if (options.planes && options.json) list.push_back(inspect::describe_plane(**plane));
   }

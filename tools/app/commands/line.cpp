@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tools/app/commands/common.h"
+#include "tools/app/commands/damage.h"
 #include "tools/app/commands/did_you_mean.h"
 #include "tools/app/commands/help.h"
 #include "tools/app/commands/licences.h"
@@ -30,7 +31,13 @@ struct CommonFlags {
   bool quiet = false;
   bool verbose = false;
   bool report = false;
+  bool strict = false;
 };
+
+// They read streams, and do what can be done with damaged ones.
+constexpr std::string_view kRepair[] = {"encode",   "decode", "mux",   "demux", "info",
+                                        "compare",  "stats",  "plot",  "view",  "render",
+                                        "retarget", "export", "stream"};
 
 OptionTable common_table(CommonFlags& flags) {
   OptionTable table(
@@ -38,7 +45,8 @@ OptionTable common_table(CommonFlags& flags) {
       "Animeme: MPEG-4 facial animation from text and speech.\n"
       "Animates faces (FAPs), encodes the motion (FBA, a few kbit/s) and muxes it with sound.",
       "'animeme help COMMAND' explains a command.\n"
-      "Exit codes: 0 ok, 1 a check failed or a recording ended early, 2 usage, 3 bad input, "
+      "Exit codes: 0 ok, 1 a check failed, a recording ended early or a stream is damaged, 2 "
+      "usage, 3 bad input, "
       "4 internal error, 130 stopped by Ctrl-C (what was written so far is complete).");
   table.add("-V,--version", {}, "Print the version; with --verbose also libraries and licences");
   table.add("-q,--quiet", flags.quiet, "Print errors only");
@@ -47,12 +55,19 @@ OptionTable common_table(CommonFlags& flags) {
   return table;
 }
 
-// `report`: set by --json of a command that has no report of its own.
-OptionTable table_of(const Command& command, Action& action, bool& report) {
+// Adds the flags that many commands have: --json of those that have no report of their own, and
+// --strict.
+OptionTable table_of(const Command& command, Action& action, CommonFlags& flags) {
   OptionTable table(command.name, command.summary, std::string("Examples:\n") + command.examples);
   action = command.add(table);
   if (table.find("--json") == nullptr) {
-    table.add("--json", report, "Print what was written, or what went wrong, as JSON");
+    table.add("--json", flags.report, "Print what was written, or what went wrong, as JSON");
+  }
+  if (std::find(std::begin(kRepair), std::end(kRepair), command.name) != std::end(kRepair)) {
+    table.add("--strict", flags.strict,
+              "Fail at the first damage in a stream; default: hold the last intact frame where "
+              "planes are "
+              "damaged, write the rest, exit code 1");
   }
   return table;
 }
@@ -86,7 +101,7 @@ OptionTable program_table() {
   static std::vector<Action> actions(std::size(kCommands));
   OptionTable program = common_table(flags);
   for (std::size_t i = 0; i < actions.size(); ++i) {
-    program.commands.push_back(table_of(*kCommands[i], actions[i], flags.report));
+    program.commands.push_back(table_of(*kCommands[i], actions[i], flags));
   }
   return program;
 }
@@ -103,7 +118,7 @@ int run_line(std::span<const char* const> arguments) {
   CommonFlags flags;
   OptionTable program = common_table(flags);
   Action action;
-  if (command != nullptr) program.commands.push_back(table_of(*command, action, flags.report));
+  if (command != nullptr) program.commands.push_back(table_of(*command, action, flags));
   OptionTable* const table = command == nullptr ? nullptr : &program.commands.front();
   const ParsedLine line = parse_line(program, table, words);
   switch (line.action) {
@@ -133,6 +148,7 @@ int run_line(std::span<const char* const> arguments) {
   }
   set_quiet(flags.quiet);
   set_verbose(flags.verbose);
+  set_strict(flags.strict);
   if (const std::string text = problem_with_outputs(*table); !text.empty()) {
     return usage_error(text);
   }
@@ -148,7 +164,7 @@ int run_line(std::span<const char* const> arguments) {
   const Result<int> result = action.run(action.options.get());
   if (!result) return report_error(result.error());
   if (flags.report && *result != kUsage) std::cout << report_text() << "\n";
-  return *result;
+  return *result == kOk && damage_reported() ? kCheckFailed : *result;
 }
 
 }  // namespace animeme::tools

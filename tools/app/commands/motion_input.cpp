@@ -7,6 +7,7 @@
 #include "codec/decode/access_unit.h"
 #include "codec/decode/fill.h"
 #include "tools/app/commands/common.h"
+#include "tools/app/commands/damage.h"
 #include "tools/formats/media/container.h"
 
 namespace animeme::tools {
@@ -27,7 +28,6 @@ Result<MotionInput> tell_quirks(Result<exchange::Motion> motion, const std::stri
 Result<MotionInput> read_media(const std::vector<std::uint8_t>& bytes, const std::string& path) {
   const auto container = open_container(bytes, path);
   if (!container) return container.error().in_file(path);
-  for (const std::string& text : container->warnings) warn(path + ": " + text);
   const fba::AccessUnits& face = container->face;
   auto input = tell_quirks(exchange::decode_motion(fba::join_access_units(face)), path);
   if (!input) return input;
@@ -56,7 +56,14 @@ Result<std::vector<std::uint8_t>> read_input(const std::string& path) {
 
 Result<media::Container> open_container(std::span<const std::uint8_t> bytes,
                                         const std::string& path) {
-  return is_on_disk(path) ? media::read_container(path) : media::read_container(bytes);
+  media::ReadOptions options;
+  options.repair = !is_strict();
+  auto container = is_on_disk(path) ? media::read_container(path, options)
+                                    : media::read_container(bytes, options);
+  if (!container) return container;
+  for (const std::string& text : container->warnings) warn(path + ": " + text);
+  report_damage(path, container->damage);
+  return container;
 }
 
 Result<MotionInput> read_motion(const std::string& path, FrameNumbers numbers) {
@@ -68,7 +75,10 @@ Result<MotionInput> read_motion(const std::string& path, FrameNumbers numbers) {
 Result<MotionInput> parse_motion(std::vector<std::uint8_t> bytes, const std::string& path,
                                  FrameNumbers numbers) {
   if (kind_of(bytes) == FileKind::media) return read_media(bytes, path);
-  return tell_quirks(exchange::read_motion(std::move(bytes), numbers), path);
+  std::vector<fba::Damage> damage;
+  auto motion = exchange::read_motion(std::move(bytes), numbers, is_strict() ? nullptr : &damage);
+  report_damage(path, damage);
+  return tell_quirks(std::move(motion), path);
 }
 
 Result<FaceInput> read_face(const std::string& path) {

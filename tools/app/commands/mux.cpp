@@ -60,7 +60,6 @@ Result<fba::AccessUnits> read_units(const MuxOptions& options) {
   if (kind_of(*bytes) == FileKind::media) {
     Result<media::Container> container = open_container(*bytes, options.face);
     if (!container) return container.error();
-    for (const std::string& text : container->warnings) warn(options.face + ": " + text);
     return std::move(container->face);
   }
   Result<FaceInput> face = parse_face(std::move(*bytes), options.face);
@@ -71,6 +70,7 @@ Result<fba::AccessUnits> read_units(const MuxOptions& options) {
 // Samples only where they are needed twice: a file is decoded while it is written.
 Result<speech::SoundInput> sound_of(const MuxOptions& options) {
   speech::SoundInput sound;
+  if (options.audio.empty()) return sound;
   if (options.sound.codec == "copy") {
     Result<media::EncodedAudio> coded = media::read_encoded_audio(options.audio);
     if (!coded) return coded.error().in_file(options.audio);
@@ -103,7 +103,8 @@ Result<int> run(MuxOptions options) {
     if (shows_captions(options.output, options.subtitles)) speech::add_captions(texts);
     input.texts = &texts;
   }
-  if (!sound->coded && !sound->samples) input.audio_file = &options.audio;
+  const bool from_file = !options.audio.empty() && !sound->coded && !sound->samples;
+  if (from_file) input.audio_file = &options.audio;
   options.mux.audio = audio_settings(options.sound, options.output);
   options.mux.text_track = media::TextTrackType::metadata;
   if (options.video_track) options.mux.face_track = media::FaceTrackType::video;
@@ -114,7 +115,7 @@ Result<int> run(MuxOptions options) {
 
 void add_options(OptionTable& cli, MuxOptions& options) {
   cli.add("face", options.face, "FAP text, FBA stream, or a container with a face")->required();
-  cli.add("audio", options.audio, "Sound in any format that FFmpeg reads")->required();
+  cli.add("audio", options.audio, "Sound in any format that FFmpeg reads; default: none");
   cli.add("-o,--output", options.output,
           "File to write: .mp4, .mkv, .ts; .m3u8 (HLS) or .mpd (DASH) with a folder of "
           "segments beside it")
@@ -152,6 +153,7 @@ void add_options(OptionTable& cli, MuxOptions& options) {
 
 const Command kMux{"mux", "Mux a face and sound into one file",
                    "  animeme mux talk.fba voice.wav -o talk.mp4\n"
+                   "  animeme mux talk.fba -o face.mp4                # without sound\n"
                    "  animeme mux talk.fap voice.flac --quant 2 -o talk.mkv\n"
                    "  animeme mux talk.fba voice.wav --audio-codec opus --fragmented -o talk.mp4\n"
                    "  animeme mux talk.mp4 talk.mp4 --audio-codec copy -o talk.ts\n"

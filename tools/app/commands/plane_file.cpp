@@ -6,7 +6,9 @@
 #include <optional>
 #include <span>
 
+#include "tools/app/commands/damage.h"
 #include "tools/formats/exchange/file_kind.h"
+#include "tools/formats/files/files.h"
 
 namespace animeme::tools {
 
@@ -62,6 +64,18 @@ bool PlaneFile::can_read(const std::string& path) {
   std::uint8_t head[4] = {};
   in.read(reinterpret_cast<char*>(head), sizeof head);
   return in && exchange::kind_of(head) == exchange::FileKind::fba_stream;
+}
+
+std::optional<PlaneFile> PlaneFile::repaired(const std::string& name) const {
+  if (is_strict()) return std::nullopt;
+  std::optional<std::vector<std::uint8_t>> stream;
+  if (path_.empty()) {
+    stream = tools::repaired(bytes_, name);
+  } else if (const auto bytes = read_file(path_)) {
+    stream = tools::repaired(*bytes, name);
+  }
+  if (!stream) return std::nullopt;
+  return PlaneFile(std::move(*stream));
 }
 
 struct PlaneReader::Impl {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,10 @@ class PlaneFile {
   explicit PlaneFile(std::vector<std::uint8_t> bytes) : bytes_(std::move(bytes)) {}
   /// A stream in a file.
   explicit PlaneFile(std::string path) : path_(std::move(path)) {}
+
+  /// The same stream without what is damaged (damage.h), in memory; nullopt: with --strict, or if
+  /// nothing is damaged, or nothing can be repaired. `name` is that of the file in warnings.
+  std::optional<PlaneFile> repaired(const std::string& name) const;
 
   /// Is this a file (no pipe, not standard input) with such a stream?
   static bool can_read(const std::string& path);

@@ -112,8 +112,13 @@ Result<inspect::Statistics> measure_stream(const PlaneFile& file, const char* ki
   inspect::Measurement measurement;
   for (;;) {
     const Result<const fba::Plane*> plane = reader.next();
+    const bool ends = plane && *plane == nullptr;
+    if (!plane || (ends && !reader.warnings().empty())) {
+      const auto repaired = file.repaired(path);
+      if (repaired) return measure_stream(*repaired, kind, path, tell);
+    }
     if (!plane) return Error(plane.error()).in_file(path);
-    if (*plane == nullptr) break;
+    if (ends) break;
     measurement.add(**plane);
   }
   for (const std::string& text : reader.warnings()) {

@@ -21,12 +21,17 @@ namespace animeme::python {
 
 namespace {
 
+constexpr media::ReadOptions kRepair{.repair = true};
+
 Result<exchange::Motion> motion_of(Result<media::Container> container) {
   if (!container) return container.error();
   auto motion = exchange::decode_motion(fba::join_access_units(container->face));
   if (motion) {
     auto& warnings = motion->warnings;
     warnings.insert(warnings.begin(), container->warnings.begin(), container->warnings.end());
+    for (const fba::Damage& one : container->damage) {
+      warnings.push_back("damaged " + one.describe());
+    }
   }
   return motion;
 }
@@ -38,7 +43,7 @@ Result<exchange::Motion> read_file(const std::string& path) {
   in.read(reinterpret_cast<char*>(first.data()), std::streamsize(first.size()));
   first.resize(std::size_t(in.gcount()));
   if (!first.empty() && exchange::kind_of(first) == exchange::FileKind::media) {
-    return motion_of(media::read_container(path));
+    return motion_of(media::read_container(path, kRepair));
   }
   auto bytes = tools::read_file(path);
   if (!bytes) return bytes.error();
@@ -47,7 +52,7 @@ Result<exchange::Motion> read_file(const std::string& path) {
 
 Result<exchange::Motion> read_bytes(std::span<const std::uint8_t> bytes) {
   if (exchange::kind_of(bytes) == exchange::FileKind::media) {
-    return motion_of(media::read_container(bytes));
+    return motion_of(media::read_container(bytes, kRepair));
   }
   return exchange::read_motion({bytes.begin(), bytes.end()});
 }

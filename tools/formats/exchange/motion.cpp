@@ -7,7 +7,8 @@
 
 namespace animeme::exchange {
 
-Result<Motion> read_motion(std::vector<std::uint8_t> bytes, FrameNumbers numbers) {
+Result<Motion> read_motion(std::vector<std::uint8_t> bytes, FrameNumbers numbers,
+                           std::vector<fba::Damage>* damage) {
   if (bytes.empty()) return make_error(Code::truncated, "the file is empty");
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   Motion motion;
@@ -34,7 +35,7 @@ Result<Motion> read_motion(std::vector<std::uint8_t> bytes, FrameNumbers numbers
       return motion;
     }
     case FileKind::fba_stream:
-      return decode_motion(std::move(bytes));
+      return decode_motion(std::move(bytes), damage);
     case FileKind::media:
       return make_error(Code::unsupported, "a container must be opened before it is read");
     default:
@@ -44,11 +45,20 @@ Result<Motion> read_motion(std::vector<std::uint8_t> bytes, FrameNumbers numbers
   }
 }
 
-Result<Motion> decode_motion(std::vector<std::uint8_t> stream) {
+Result<Motion> decode_motion(std::vector<std::uint8_t> stream, std::vector<fba::Damage>* damage) {
   Motion motion;
   motion.kind = FileKind::fba_stream;
   motion.stream = std::move(stream);
   Result<fba::DecodedStream> decoded = fba::decode(motion.stream);
+  const bool sound = decoded && decoded->warnings.empty();
+  if (!sound && damage != nullptr) {
+    auto repaired = fba::repair_stream(motion.stream);
+    if (repaired && !repaired->damage.empty()) {
+      *damage = std::move(repaired->damage);
+      motion.stream = std::move(repaired->stream);
+      decoded = fba::decode(motion.stream);
+    }
+  }
   if (!decoded) return decoded.error();
   motion.face = fba::face_sequence(*decoded);
   motion.body = fba::body_sequence(*decoded);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "codec/decode/decoder.h"
+#include "codec/decode/repair.h"
 #include "codec/text/bap_text.h"
 #include "fap/frame.h"
 #include "fap/result.h"
@@ -29,13 +30,16 @@ struct Motion {
 enum class FrameNumbers : std::uint8_t { from_zero, keep };
 
 /// Reads FAP text, BAP text, a raw FBA stream or a table of curves (curves.h), detected by
-/// kind_of().
+/// kind_of(). `damage` as of decode_motion().
 /// Errors: those of the readers; truncated (no bytes), unsupported (a container), syntax (a model,
 /// a script, empty text).
 Result<Motion> read_motion(std::vector<std::uint8_t> bytes,
-                           FrameNumbers numbers = FrameNumbers::from_zero);
+                           FrameNumbers numbers = FrameNumbers::from_zero,
+                           std::vector<fba::Damage>* damage = nullptr);
 
-/// Decodes a raw FBA stream. Errors: those of fba::decode().
-Result<Motion> decode_motion(std::vector<std::uint8_t> stream);
+/// Decodes a raw FBA stream. A damaged one is repaired if `damage` is not null, which receives what
+/// is lost; Motion::stream is then the repaired one. Errors: those of fba::decode().
+Result<Motion> decode_motion(std::vector<std::uint8_t> stream,
+                             std::vector<fba::Damage>* damage = nullptr);
 
 }  // namespace animeme::exchange

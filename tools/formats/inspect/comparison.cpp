@@ -122,9 +122,10 @@ std::string text_of(const Difference& difference, const char* what) {
 
 }  // namespace
 
-std::string comparison_json(const Comparison& comparison) {
+std::string comparison_json(const Comparison& comparison, bool damaged) {
   Json json = to_json(comparison.face.value_or(fap::Difference()));
   json["equal"] = comparison.equal();
+  json["damaged"] = damaged;
   json["face_compared"] = comparison.face.has_value();
   if (comparison.body) json["body"] = to_json(*comparison.body);
   return tools::pretty(json);

@@ -20,7 +20,7 @@ struct Comparison {
 };
 
 /// The comparison as JSON text, without parameters that neither has.
-std::string comparison_json(const Comparison& comparison);
+std::string comparison_json(const Comparison& comparison, bool damaged = false);
 
 /// A line, and a table if parameters differ, for the face and for the body.
 std::string comparison_text(const Comparison& comparison);

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "codec/decode/access_unit.h"
+#include "codec/decode/repair.h"
 #include "fap/result.h"
 #include "tools/formats/media/encoded_audio.h"
 
@@ -48,6 +49,9 @@ struct Container {
   /// Profile and level of the configuration, 0x61..0x64 for faces; 0: not given.
   std::uint8_t visual_profile = 0;
   std::optional<AudioInfo> audio;  ///< the best sound track
+  /// With ReadOptions::repair: planes that are missing or were left out since they are damaged. The plane before lasts until
+  /// the next intact one, and skips as many frames.
+  std::vector<fba::Damage> damage;
   /// Anomalies that did not prevent reading, one sentence each.
   std::vector<std::string> warnings;
 };
@@ -57,10 +61,14 @@ struct ReadOptions {
   /// More face data is rejected (an index can refer to the same bytes repeatedly).
   std::size_t max_bytes = std::size_t(1) << 28;
   std::size_t max_units = 4'000'000;  ///< 15 hours at 72 planes a second
+  /// Decodes all planes and leaves out what is damaged, fba::repair_units(): see
+  /// Container::damage. Otherwise units are as they are in the file, and what is missing is a
+  /// warning.
+  bool repair = false;
 };
 
 /// Reads the face. Damage does not affect the intact parts of a file: a broken or truncated unit is
-/// dropped, with the predicted planes after it up to the next intra plane, and a warning is added.
+/// dropped, with the predictive planes after it up to the next intra plane, and a warning is added.
 /// Errors: not_found (no file, or no face in it), io, truncated (empty), syntax (not a media file;
 /// no readable intra plane), unsupported (a format that cannot carry a face, or a raw FBA stream),
 /// out_of_range (limits, memory).

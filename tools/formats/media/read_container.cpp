@@ -55,6 +55,8 @@ class ContainerReader {
   std::int64_t shift(const SoundStart& sound) const;
   Error no_face() const;
   void add_warnings(const av::LogCapture& log);
+  void add_damage(std::int64_t found, const av::LogCapture& log);
+  bool ends_in_packet() const;
 
   Input& input_;
   AVFormatContext& file_;
@@ -130,15 +132,44 @@ std::int64_t ContainerReader::shift(const SoundStart& sound) const {
 void ContainerReader::add_warnings(const av::LogCapture& log) {
   if (input_.exhausted()) {
     result_.warnings.push_back("the file's index sends the reader in circles; reading was stopped");
-  } else if (status_ != AVERROR_EOF) {
+  } else if (status_ != AVERROR_EOF && !options_.repair) {
     result_.warnings.push_back("reading stopped early: " + av::error_text(status_));
   }
-  const std::int64_t stated = face_ < 0 ? 0 : file_.streams[face_]->nb_frames;
-  if (stated > 0 && std::int64_t(units_->count()) < stated) {
-    result_.warnings.push_back("the file ends early: " + std::to_string(units_->count()) + " of " +
-                               std::to_string(stated) + " planes were found");
-  }
   for (const std::string& line : log.lines()) result_.warnings.push_back("FFmpeg: " + line);
+}
+
+// A transport stream has whole packets of 188 bytes, on discs of 192, with error correction of 204.
+bool ContainerReader::ends_in_packet() const {
+  const std::int64_t size = avio_size(file_.pb);
+  return result_.format == "mpegts" && size > 0 && size % 188 != 0 && size % 192 != 0 &&
+         size % 204 != 0;
+}
+
+// What is missing behind the last of the units that were found.
+void ContainerReader::add_damage(std::int64_t found, const av::LogCapture& log) {
+  const std::int64_t stated = face_ < 0 ? 0 : file_.streams[face_]->nb_frames;
+  const std::int64_t missing = stated - found;
+  const bool stopped = status_ != AVERROR_EOF && options_.repair;
+  const auto& lines = log.lines();
+  const bool cut =
+      options_.repair &&
+      (ends_in_packet() || std::any_of(lines.begin(), lines.end(), [](const auto& line) {
+         return line.find("ended prematurely") != std::string::npos;
+       }));
+  if (missing <= 0 && !stopped && !cut) return;
+  fba::Damage end;
+  if (missing > 0) {
+    end.reason = "the file ends early: " + std::to_string(found) + " of " + std::to_string(stated) +
+                 " planes were found";
+  } else if (stopped) {
+    end.reason = "reading stopped early: " + av::error_text(status_);
+  } else {
+    end.reason = "the file is cut off";
+  }
+  if (!options_.repair) return result_.warnings.push_back(std::move(end.reason));
+  const fba::AccessUnit& last = result_.face.units.back();
+  end.seconds = double(last.time + last.duration) / result_.face.timescale;
+  result_.damage.push_back(std::move(end));
 }
 
 Result<Container> ContainerReader::read(const av::LogCapture& log) {
@@ -165,8 +196,13 @@ Result<Container> ContainerReader::read(const av::LogCapture& log) {
   }
   const std::int64_t ticks = shift(sound);
   add_warnings(log);
+  const auto found = std::int64_t(units_->count());
+  // An index says where each sample is; without one, what cannot be read leaves no trace.
+  const bool indexed = result_.format == "mp4" || result_.format == "mov";
+  if (options_.repair && !indexed) units_->find_gaps(!log.lines().empty());
   Result<void> finished = units_->finish(ticks, result_);
   if (!finished) return finished.error();
+  add_damage(found, log);
   return std::move(result_);
 }
 

@@ -1,8 +1,10 @@
 #include "tools/formats/media/detail/tracks/unit_collector.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "codec/decode/plane_header.h"
 #include "tools/formats/media/detail/tracks/face_header.h"
 
 namespace animeme::media {
@@ -77,7 +79,9 @@ Result<void> UnitCollector::add(const AVPacket& packet, AVRational time_base) {
   if (units_.size() >= options_.max_units || bytes_ + bytes.size() > options_.max_bytes) {
     return too_long();
   }
+  if (wait_for_intra_ && lost_ > 0) gaps_.push_back(units_.size());
   wait_for_intra_ = false;
+  lost_before_ = lost_;
   bytes_ += bytes.size();
   last_duration_ = packet.duration > 0 && packet.duration < kLatest ? packet.duration : 0;
   std::vector<PlaneCutter::Piece> pieces{{bytes.size(), 0}};
@@ -106,8 +110,31 @@ void UnitCollector::set_durations() {
     last.duration = std::max<std::int64_t>(1, base_.den / (25 * std::int64_t(base_.num)));
 }
 
+void UnitCollector::find_gaps(bool noticed) {
+  constexpr double kRoom = 0.75;      // of a frame
+  constexpr std::size_t kUsual = 20;  // more than one in so many: their times mean something else
+  std::vector<std::size_t> found;
+  fap::Rate rate{30, 1};
+  std::size_t jumps = 0;
+  double expected = 0;  // time of the next unit, in seconds; of the first its own
+  for (std::size_t i = 0; i < units_.size(); ++i) {
+    const auto header = fba::read_plane_header(units_[i].bytes);
+    if (!header) continue;
+    if (header->temporal.rate) rate = header->temporal.rate->rate();
+    const double time = double(units_[i].time) * av_q2d(base_);
+    if (i > 0 && time - expected > rate.seconds(kRoom)) {
+      ++jumps;
+      if (noticed || !header->intra) found.push_back(i);
+    }
+    expected = time + rate.seconds(1 + double(header->temporal.skip.value_or(0)));
+  }
+  if (jumps > 1 + units_.size() / kUsual) return;
+  gaps_.insert(gaps_.end(), found.begin(), found.end());
+  std::sort(gaps_.begin(), gaps_.end());
+}
+
 Result<void> UnitCollector::finish(std::int64_t shift, Container& result) {
-  if (lost_ > 0) {
+  if (lost_ > 0 && !options_.repair) {
     result.warnings.push_back(std::to_string(lost_) +
                               " planes are damaged or follow a damaged one and were left out");
   }
@@ -132,6 +159,23 @@ Result<void> UnitCollector::finish(std::int64_t shift, Container& result) {
   result.face.config = std::move(config_);
   result.face.timescale = std::uint32_t(base_.den);
   result.face.units = std::move(units_);
+  return options_.repair ? repair(result) : Result<void>();
+}
+
+Result<void> UnitCollector::repair(Container& result) {
+  auto damage = fba::repair_units(result.face, gaps_);
+  if (!damage) {
+    return make_error(Code::syntax,
+                      "the face track has no readable intra plane: " + damage.error().message);
+  }
+  result.damage = std::move(*damage);
+  if (!wait_for_intra_) return {};
+  fba::Damage end;
+  const fba::AccessUnit& last = result.face.units.back();
+  end.seconds = double(last.time + last.duration) / result.face.timescale;
+  end.frames = lost_ - lost_before_;
+  end.reason = "planes at the end are damaged or follow a damaged one";
+  result.damage.push_back(std::move(end));
   return {};
 }
 

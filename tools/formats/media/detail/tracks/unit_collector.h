@@ -20,6 +20,9 @@ class UnitCollector {
   /// Takes one packet. Errors: out_of_range (limits).
   Result<void> add(const AVPacket& packet, AVRational time_base);
 
+  /// Units may be missing without a trace: where times leave room for them, they are. `noticed`:
+  /// the demuxer had complaints, so that this holds in front of intra planes, too.
+  void find_gaps(bool noticed);
   /// Durations, time shift (subtracted, in ticks), configuration, warnings. Errors: syntax (no
   /// unit could be read).
   Result<void> finish(std::int64_t shift, Container& result);
@@ -31,6 +34,7 @@ class UnitCollector {
 
  private:
   void lose();
+  Result<void> repair(Container& result);
   Error too_long() const;
   bool continues(const AVPacket& packet) const;
   Result<void> append(std::span<const std::uint8_t> bytes);
@@ -40,10 +44,12 @@ class UnitCollector {
   std::vector<std::uint8_t> config_;
   std::optional<PlaneCutter> cutter_;  // of shared packets
   std::vector<fba::AccessUnit> units_;
+  std::vector<std::size_t> gaps_;  // units with lost ones before them
   AVRational base_{1, 1};
   std::size_t bytes_ = 0;
   std::int64_t lost_ = 0;
-  std::int64_t late_ = 0;  // units whose time does not ascend
+  std::int64_t lost_before_ = 0;  // the last unit
+  std::int64_t late_ = 0;         // units whose time does not ascend
   std::int64_t last_duration_ = 0;
   bool wait_for_intra_ = true;
 };

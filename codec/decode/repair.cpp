@@ -1,0 +1,435 @@
+#include "codec/decode/repair.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <utility>
+
+#include "codec/decode/decoder.h"
+#include "codec/decode/plane_header.h"
+#include "codec/decode/unit_writer_internal.h"
+#include "codec/syntax/bits.h"
+#include "codec/syntax/plane.h"
+
+namespace animeme::fba {
+namespace {
+
+constexpr std::array<std::uint8_t, 4> kPlaneCode = {0x00, 0x00, 0x01, 0xBB};
+constexpr std::int64_t kMostHeld = std::int64_t(1) << 20;  // frames; more is not believed
+constexpr std::uint32_t kMostSkipped = 1 << 12;  // the same of a header that may be damaged
+constexpr std::size_t kUsual = 3;                // planes that are alike make a rule
+
+bool is_code(std::uint32_t code, std::uint32_t now, std::uint32_t old) {
+  return code == now || code == old;
+}
+bool is_plane_code(std::uint32_t code) { return is_code(code, kPlaneStart, kOldPlaneStart); }
+bool is_object_code(std::uint32_t code) { return is_code(code, kObjectStart, kOldObjectStart); }
+
+// The bytes of a unit: start codes, one plane or several, stuffing.
+struct Piece {
+  std::span<const std::uint8_t> bytes;
+  std::int64_t offset = 0;        // of the first byte in the whole
+  std::size_t plane_at = 0;       // of the first byte of its first plane
+  bool object = false;            // begins with an object start code
+  bool coded = false;             // has a plane start code
+  bool after_gap = false;         // units before it are missing
+  std::optional<double> seconds;  // its time, if a container says it
+
+  bool intra() const { return plane_at < bytes.size() && (bytes[plane_at] & 0x80) != 0; }
+};
+
+Piece piece_of(std::span<const std::uint8_t> unit, std::int64_t offset) {
+  Piece piece;
+  piece.bytes = unit;
+  piece.offset = offset;
+  const BitReader in(unit);
+  piece.object = is_object_code(in.peek32(0));
+  if (piece.object) piece.plane_at = unit.size() > 4 && unit[4] == 0x7F ? 5 : 4;
+  piece.coded = is_plane_code(in.peek32(piece.plane_at * 8));
+  if (piece.coded) piece.plane_at += kPlaneCode.size();
+  return piece;
+}
+
+// Zeros and ones from a bit to the byte border as next_start_code() has them.
+bool is_stuffed(std::span<const std::uint8_t> bytes, std::int64_t bit) {
+  BitReader in(bytes, std::size_t(bit));
+  const std::size_t border = (std::size_t(bit) / 8 + 1) * 8;
+  if (in.bit() != 0) return false;
+  while (in.position() < border) {
+    if (in.bit() == 0) return false;
+  }
+  return !in.overrun();
+}
+
+// A start code of which one byte is wrong.
+bool is_nearly_code(std::span<const std::uint8_t> bytes, std::size_t at) {
+  if (at + kPlaneCode.size() >= bytes.size()) return false;
+  int wrong = 0;
+  for (std::size_t i = 0; i < kPlaneCode.size(); ++i)
+    wrong += bytes[at + i] != kPlaneCode[i] ? 1 : 0;
+  return wrong == 1;
+}
+
+// A plane that can be decoded.
+struct Kept {
+  std::size_t piece = 0;
+  std::int64_t bit_begin = 0, bit_end = 0;  // in the piece
+  bool intra = false, object = false;       // an object begins
+  std::int64_t number = 0;                  // of its frame
+  std::int64_t skip = 0;                    // frames that it says it skips
+  fap::Rate rate;
+};
+
+class Repairer {
+ public:
+  explicit Repairer(std::span<const Piece> pieces) : pieces_(pieces) {}
+
+  void run() {
+    for (std::size_t i = 0; i < pieces_.size(); ++i) take(i);
+  }
+
+  const std::vector<Kept>& kept() const { return kept_; }
+  std::vector<Damage>& damage() { return damage_; }
+  std::int64_t next() const { return next_; }  // number of the frame behind the last one
+  const std::optional<Error>& first_failure() const { return failure_; }
+  bool following() const { return following_; }  // the last unit is intact
+
+ private:
+  void take(std::size_t index);
+  // What the decoder makes of a piece; the failure, if there is one.
+  std::optional<Error> decode_piece(const Piece& piece, bool goes_on, std::vector<Plane>& planes);
+  void keep(std::size_t index, const std::vector<Plane>& planes);
+  void place(double seconds);
+  void lose(std::int64_t bit, const Error& error, std::int64_t frames, bool estimated);
+  double lost_at() const;
+  // Frames of a piece that was not decoded.
+  std::int64_t frames_of(const Piece& piece, std::int64_t bits, bool& estimated) const;
+
+  std::span<const Piece> pieces_;
+  std::vector<Kept> kept_;
+  std::vector<Damage> damage_;
+  std::optional<Error> failure_;
+  Decoder decoder_;
+  fap::Rate rate_{30, 1};
+  bool following_ = false;  // the decoder has what the next predictive plane builds on
+  bool single_ = true;      // so far each unit was one plane ...
+  bool stuffed_ = true;     // ... and the bits behind it were stuffing
+  bool in_damage_ = false;  // the last entry of damage_ goes on
+  std::int64_t fed_ = 0;    // bytes that the decoder has had, without a start code ahead
+  std::int64_t next_ = 0;   // number of the next frame
+  std::int64_t bits_ = 0;   // of what was kept
+};
+
+// The decoder knows the end of a plane by what follows, so it gets the next start code ahead.
+std::optional<Error> Repairer::decode_piece(const Piece& piece, bool goes_on,
+                                            std::vector<Plane>& planes) {
+  const std::int64_t begin = std::exchange(fed_, fed_ + std::int64_t(piece.bytes.size()));
+  decoder_.push(piece.bytes.subspan(goes_on ? kPlaneCode.size() : 0));
+  decoder_.push(kPlaneCode);
+  const auto misplaced = [](std::int64_t bit) {
+    return error_at_bit(Code::syntax, "a plane does not end where the next one begins", bit);
+  };
+  for (;;) {
+    Result<Event> event = decoder_.next();
+    if (!event && event.error().code == Code::need_data) break;
+    if (!event) return event.error();
+    if (event->kind != Event::Kind::plane) continue;
+    Plane& plane = event->plane;
+    plane.bit_begin -= begin * 8;
+    plane.bit_end -= begin * 8;
+    if (planes.empty() && plane.bit_begin != std::int64_t(piece.plane_at) * 8) {
+      return misplaced(plane.bit_begin);
+    }
+    planes.push_back(std::move(plane));
+  }
+  if (planes.empty()) return make_error(Code::truncated, "a plane is incomplete");
+  const std::int64_t end = planes.back().bit_end;
+  const std::int64_t stuffing = std::int64_t(piece.bytes.size()) * 8 - end;
+  if (stuffing < 0 || stuffing > 8) return misplaced(end);
+  const bool alike = kept_.size() >= kUsual;
+  if (single_ && alike && planes.size() > 1) return misplaced(planes.front().bit_end);
+  const bool stuffed = is_stuffed(piece.bytes, end);
+  if (stuffed_ && alike && !stuffed) return misplaced(end);
+  stuffed_ = stuffed_ && stuffed;
+  single_ = single_ && planes.size() == 1;
+  return std::nullopt;
+}
+
+void Repairer::keep(std::size_t index, const std::vector<Plane>& planes) {
+  const Piece& piece = pieces_[index];
+  for (const Plane& plane : planes) {
+    if (plane.temporal.rate) rate_ = plane.temporal.rate->rate();
+    if (in_damage_ && piece.seconds && !kept_.empty()) place(*piece.seconds);
+    Kept& kept = kept_.emplace_back();
+    kept.piece = index;
+    kept.bit_begin = plane.bit_begin;
+    kept.bit_end = plane.bit_end;
+    kept.intra = plane.intra;
+    kept.object = piece.object && &plane == &planes.front();
+    kept.number = next_;
+    kept.skip = std::int64_t(plane.temporal.skip.value_or(0));
+    kept.rate = rate_;
+    next_ += 1 + kept.skip;
+    bits_ += kept.bit_end - kept.bit_begin;
+    in_damage_ = false;
+  }
+}
+
+// Behind lost planes: the container knows how long they took.
+void Repairer::place(double seconds) {
+  const Kept& last = kept_.back();
+  const double since = seconds - *pieces_[last.piece].seconds;
+  const auto frames = std::llround(since * last.rate.frames_per_second());
+  next_ = last.number + std::clamp<std::int64_t>(frames, 1, kMostHeld);
+  damage_.back().frames = std::max<std::int64_t>(0, next_ - last.number - 1 - last.skip);
+  damage_.back().estimated = false;
+}
+
+std::int64_t Repairer::frames_of(const Piece& piece, std::int64_t bits, bool& estimated) const {
+  if (single_ || kept_.empty()) {
+    const auto header = read_plane_header(piece.bytes);
+    const bool skips = header && header->temporal.skip && *header->temporal.skip < kMostSkipped;
+    return 1 + (skips ? std::int64_t(*header->temporal.skip) : 0);
+  }
+  estimated = true;
+  const double mean = double(bits_) / double(kept_.size());
+  return std::max<std::int64_t>(1, std::llround(double(bits) / std::max(1.0, mean)));
+}
+
+void Repairer::lose(std::int64_t bit, const Error& error, std::int64_t frames, bool estimated) {
+  if (!failure_) failure_ = error_at_bit(error.code, error.message, bit);
+  if (!in_damage_) {
+    Damage& damage = damage_.emplace_back();
+    damage.bit = bit;
+    damage.seconds = lost_at();
+    damage.reason = error.message;
+    in_damage_ = true;
+  }
+  frames = std::min(frames, kMostHeld - damage_.back().frames);
+  damage_.back().frames += frames;
+  damage_.back().estimated |= estimated;
+  next_ += frames;
+  following_ = false;
+}
+
+double Repairer::lost_at() const {
+  if (kept_.empty()) return 0;
+  const Kept& last = kept_.back();
+  const std::optional<double>& from = pieces_[last.piece].seconds;
+  const double ahead = last.rate.seconds(double(next_ - last.number));
+  return from ? *from + ahead : last.rate.seconds(double(last.number)) + ahead;
+}
+
+void Repairer::take(std::size_t index) {
+  const Piece& piece = pieces_[index];
+  const std::int64_t size = std::int64_t(piece.bytes.size()) * 8;
+  if (piece.after_gap) {
+    lose(piece.offset * 8, make_error(Code::truncated, "planes are missing"), 0, false);
+  }
+  following_ = following_ && !piece.object && piece.coded;
+  bool estimated = false;
+  if (!following_ && !piece.intra()) {
+    const std::int64_t frames = frames_of(piece, size, estimated);
+    const char* why = piece.coded || piece.object ? "there is no intra plane to begin with"
+                                                  : "a plane has no start code";
+    lose(piece.offset * 8, make_error(Code::syntax, why), frames, estimated);
+    return;
+  }
+  const bool goes_on = following_;
+  if (!goes_on) {
+    decoder_ = {};
+    fed_ = 0;
+  }
+  std::vector<Plane> planes;
+  const std::optional<Error> failed = decode_piece(piece, goes_on, planes);
+  following_ = true;
+  if (!failed) return keep(index, planes);
+  // What reaches into the next unit is no plane. Of several planes, those before the last one are
+  // followed by another one, unless the stream is cut off here; where each has a start code of its
+  // own, the first is whole if what follows it was one.
+  std::erase_if(planes, [&](const Plane& plane) { return plane.bit_end > size; });
+  const bool cut_off = failed->code == Code::truncated || index + 1 == pieces_.size();
+  std::size_t good = planes.size() - (planes.empty() || cut_off ? 0 : 1);
+  if (single_ && kept_.size() >= kUsual) {
+    const bool whole = !planes.empty() && is_stuffed(piece.bytes, planes.front().bit_end) &&
+                       is_nearly_code(piece.bytes, std::size_t(planes.front().bit_end / 8 + 1));
+    good = whole ? 1 : 0;
+  } else {
+    single_ = single_ && planes.size() <= 1;
+  }
+  planes.resize(good);
+  keep(index, planes);
+  const std::int64_t from = planes.empty() ? 0 : planes.back().bit_end;
+  lose(piece.offset * 8 + from, *failed, frames_of(piece, size - from, estimated), estimated);
+}
+
+// The units of the planes that were kept, with as many skipped frames as lie behind each.
+std::vector<AccessUnit> units_of(std::span<const Kept> kept, std::span<const Piece> pieces) {
+  std::vector<AccessUnit> units;
+  units.reserve(kept.size());
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    const Kept& plane = kept[i];
+    std::optional<std::uint32_t> skip;
+    if (i + 1 < kept.size()) {
+      const std::int64_t between = kept[i + 1].number - plane.number - 1;
+      if (between != plane.skip)
+        skip = std::uint32_t(std::clamp<std::int64_t>(between, 0, kMostHeld));
+    }
+    AccessUnit& unit = units.emplace_back();
+    unit.bytes = internal::write_unit(pieces[plane.piece].bytes, plane.bit_begin, plane.bit_end,
+                                      i == 0 || plane.object, skip);
+    unit.intra = plane.intra;
+  }
+  return units;
+}
+
+// Cuts a raw stream at its start codes: what lies before the first object or plane is left out, an
+// end code ends it. A start code of something else ends an object (codec/bitstream.md, section 1);
+// where planes go on behind it, it was that of a plane.
+struct Cut {
+  std::vector<Piece> pieces;
+  bool ended = false;  // by an end code
+};
+
+Cut cut(std::span<const std::uint8_t> stream) {
+  Cut out;
+  const BitReader in(stream);
+  std::optional<std::size_t> begin;
+  bool foreign = false;  // a start code of something else, or one that is damaged
+  const auto close = [&](std::size_t end, bool goes_on) {
+    if (begin && (goes_on || !foreign)) {
+      out.pieces.push_back(piece_of(stream.subspan(*begin, end - *begin), *begin));
+    }
+    begin.reset();
+    foreign = false;
+  };
+  for (std::size_t at = 0; at + 4 <= stream.size(); ++at) {
+    if (stream[at] != 0 || stream[at + 1] != 0 || stream[at + 2] != 1) continue;
+    const std::uint32_t code = in.peek32(at * 8);
+    if (code == kSequenceEnd) {
+      close(at, false);
+      out.ended = true;
+      return out;
+    }
+    if (is_plane_code(code) || is_object_code(code)) {
+      close(at, is_plane_code(code));
+      begin = at;
+      const Piece piece = piece_of(stream.subspan(at), 0);
+      if (piece.object && piece.coded) at = *begin + piece.plane_at - 1;
+    } else if (code == kSequenceStart || code == kUserData || code == kVisualObject) {
+      close(at, false);
+    } else if (begin) {
+      close(at, true);
+      begin = at;
+      foreign = true;
+    }
+  }
+  // A stream that is cut in a start code.
+  std::size_t end = stream.size();
+  const bool whole_prefix =
+      end >= 3 && stream[end - 1] == 1 && stream[end - 2] == 0 && stream[end - 3] == 0;
+  if (whole_prefix) --end;
+  while (end > 0 && stream[end - 1] == 0) --end;
+  close(stream.size() - end <= 3 ? end : stream.size(), false);
+  return out;
+}
+
+Error nothing_left(const std::optional<Error>& failure) {
+  return failure.value_or(make_error(Code::truncated, "the stream holds no plane"));
+}
+
+// Whether a stream decodes without a doubt.
+bool is_sound(std::span<const std::uint8_t> stream) {
+  const Result<DecodedStream> decoded = decode(stream);
+  return decoded && decoded->warnings.empty();
+}
+
+}  // namespace
+
+std::string Damage::describe() const {
+  char text[96];
+  std::snprintf(text, sizeof text, "at %.2f s (bit %lld): ", seconds, static_cast<long long>(bit));
+  std::string out = text + reason;
+  if (frames > 0) {
+    out += "; " + std::string(estimated ? "about " : "") + std::to_string(frames) +
+           (frames == 1 ? " frame is lost" : " frames are lost");
+  }
+  return out;
+}
+
+Result<Repaired> repair_stream(std::span<const std::uint8_t> stream) {
+  Repaired out;
+  if (is_sound(stream)) {
+    out.stream.assign(stream.begin(), stream.end());
+    return out;
+  }
+  const Cut parts = cut(stream);
+  Repairer repairer(parts.pieces);
+  repairer.run();
+  const std::span<const Kept> kept = repairer.kept();
+  if (kept.empty()) return nothing_left(repairer.first_failure());
+  out.damage = std::move(repairer.damage());
+  if (!parts.ended && (out.damage.empty() || repairer.following())) {
+    Damage& damage = out.damage.emplace_back();
+    damage.bit = std::int64_t(stream.size()) * 8;
+    damage.seconds = kept.back().rate.seconds(double(repairer.next()));
+    damage.reason = "the stream ends without an end code; it may be truncated";
+  }
+  if (out.damage.empty()) {
+    out.stream.assign(stream.begin(), stream.end());
+    return out;
+  }
+  AccessUnits units;
+  units.units = units_of(kept, parts.pieces);
+  // The first plane is shown from the beginning.
+  if (kept.front().number > 0) {
+    const Kept& first = kept.front();
+    AccessUnit held;
+    held.bytes = internal::write_unit(parts.pieces[first.piece].bytes, first.bit_begin,
+                                      first.bit_end, true, std::uint32_t(first.number - 1));
+    units.units.insert(units.units.begin(), std::move(held));
+  }
+  out.stream = join_access_units(units);
+  return out;
+}
+
+Result<std::vector<Damage>> repair_units(AccessUnits& units, std::span<const std::size_t> gaps) {
+  if (gaps.empty() && is_sound(join_access_units(units))) return std::vector<Damage>();
+  std::vector<Piece> pieces;
+  std::int64_t offset = 0;
+  for (const AccessUnit& unit : units.units) {
+    Piece& piece = pieces.emplace_back(piece_of(unit.bytes, offset));
+    piece.seconds = double(unit.time) / units.timescale;
+    piece.after_gap = std::binary_search(gaps.begin(), gaps.end(), pieces.size() - 1);
+    offset += std::int64_t(unit.bytes.size());
+  }
+  Repairer repairer(pieces);
+  repairer.run();
+  const std::span<const Kept> kept = repairer.kept();
+  if (kept.empty()) return nothing_left(repairer.first_failure());
+  if (repairer.damage().empty()) return std::vector<Damage>();
+  std::vector<AccessUnit> intact = units_of(kept, pieces);
+  for (std::size_t i = 0; i < intact.size(); ++i) {
+    AccessUnit& unit = intact[i];
+    const AccessUnit& from = units.units[kept[i].piece];
+    unit.time = from.time;
+    if (i == 0) continue;
+    AccessUnit& before = intact[i - 1];
+    if (unit.time <= before.time) {  // a further plane of the same unit
+      const double frames = double(kept[i].number - kept[i - 1].number);
+      unit.time =
+          before.time +
+          std::max<std::int64_t>(1, std::llround(kept[i].rate.seconds(frames) * units.timescale));
+    }
+    before.duration = unit.time - before.time;
+  }
+  const AccessUnit& last = units.units.back();
+  intact.back().duration =
+      std::max<std::int64_t>(1, last.time + last.duration - intact.back().time);
+  units.units = std::move(intact);
+  return std::move(repairer.damage());
+}
+
+}  // namespace animeme::fba

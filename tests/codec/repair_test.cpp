@@ -1,0 +1,195 @@
+// Streams with flipped bytes, lost units and cut ends: what is intact stays as it was, at its time.
+#include "codec/decode/repair.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "codec/decode/decoder.h"
+#include "codec/encode/encode.h"
+#include "tests/support/random_clip.h"
+
+namespace animeme {
+namespace repair_test {
+
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr int kFrames = 120, kIntra = 12;  // frames, and from one intra plane to the next
+
+// A clip with an intra plane every twelve frames, in units as containers have them.
+fba::AccessUnits units_of_clip(std::uint64_t seed, bool gaps = false) {
+  fap::Sequence clip = test::random_clip(seed, kFrames, gaps);
+  clip.rate = {25, 1};
+  fba::EncodeOptions options;
+  options.intra_seconds = gaps ? 4 : kIntra / 25.0;
+  const auto stream = fba::encode(clip, options);
+  EXPECT_TRUE(stream) << stream.error().describe();
+  const auto units = fba::split_access_units(*stream);
+  EXPECT_TRUE(units) << units.error().describe();
+  return *units;
+}
+
+// Faces by the number of their frame.
+std::map<std::int64_t, fap::Frame> faces(const Bytes& stream) {
+  const auto decoded = fba::decode(stream);
+  EXPECT_TRUE(decoded) << decoded.error().describe();
+  std::map<std::int64_t, fap::Frame> all;
+  if (!decoded) return all;
+  for (const fba::Plane& plane : decoded->planes) all[plane.number] = plane.face;
+  return all;
+}
+
+struct Kept {
+  std::size_t same = 0, wrong = 0;
+};
+
+Kept compare(const std::map<std::int64_t, fap::Frame>& good,
+             const std::map<std::int64_t, fap::Frame>& repaired) {
+  Kept kept;
+  for (const auto& [number, face] : repaired) {
+    const auto at = good.find(number);
+    ++(at != good.end() && at->second == face ? kept.same : kept.wrong);
+  }
+  return kept;
+}
+
+TEST(Repair, WhatIsIntactIsUnchanged) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    fba::AccessUnits units = units_of_clip(seed, seed % 2 == 0);
+    const fba::AccessUnits before = units;
+    const Bytes stream = fba::join_access_units(units);
+    const auto repaired = fba::repair_stream(stream);
+    ASSERT_TRUE(repaired) << repaired.error().describe();
+    EXPECT_TRUE(repaired->damage.empty());
+    EXPECT_EQ(repaired->stream, stream);
+    const auto damage = fba::repair_units(units);
+    ASSERT_TRUE(damage);
+    EXPECT_TRUE(damage->empty());
+    EXPECT_EQ(units, before);
+  }
+}
+
+TEST(Repair, AFlippedByteCostsAtMostAnIntraPeriod) {
+  std::size_t wrong = 0, all = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    const fba::AccessUnits units = units_of_clip(seed % 10 + 1);
+    Bytes stream = fba::join_access_units(units);
+    const auto good = faces(stream);
+    test::Random random(seed);
+    // Behind the first intra plane, without which a stream has no beginning.
+    const std::size_t first = units.units.front().bytes.size();
+    const auto at = first + random.next() % (stream.size() - first - 4);
+    stream[at] ^= std::uint8_t(1 << random.range(0, 7));
+    const auto repaired = fba::repair_stream(stream);
+    ASSERT_TRUE(repaired) << repaired.error().describe();
+    const auto left = faces(repaired->stream);
+    const Kept kept = compare(good, left);
+    EXPECT_GE(kept.same, good.size() - kIntra) << seed << ", byte " << at;
+    wrong += kept.wrong;
+    all += good.size();
+    if (repaired->damage.empty()) continue;  // other values, which nobody can notice
+    EXPECT_EQ(repaired->damage.size(), 1u);
+    EXPECT_FALSE(repaired->damage[0].estimated);
+    EXPECT_FALSE(repaired->damage[0].reason.empty());
+    // All that comes behind the damage keeps its time.
+    if (good.size() - kept.same < kIntra && left.rbegin()->first != good.rbegin()->first) {
+      EXPECT_GE(left.rbegin()->first, std::int64_t(good.rbegin()->first) - kIntra);
+    }
+  }
+  EXPECT_LT(wrong, all / 50);
+}
+
+TEST(Repair, LostUnitsOfAContainerKeepTheirTime) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    fba::AccessUnits units = units_of_clip(seed % 10 + 1, true);
+    const auto good = faces(fba::join_access_units(units));
+    test::Random random(seed);
+    const auto first = std::size_t(random.range(1, kFrames - 2));
+    const auto count = std::min<std::size_t>(std::size_t(random.range(1, 20)), kFrames - 1 - first);
+    // As readers of containers do: predictive planes behind lost ones are left out.
+    std::size_t end = first + count;
+    while (end < units.units.size() && !units.units[end].intra) ++end;
+    const std::size_t lost = end - first;
+    const std::int64_t last = units.units.back().time;
+    const bool at_end = end == units.units.size();
+    units.units.erase(units.units.begin() + std::ptrdiff_t(first),
+                      units.units.begin() + std::ptrdiff_t(end));
+    const std::size_t gap[] = {first};
+    const auto damage = fba::repair_units(units, at_end ? std::span<const std::size_t>() : gap);
+    ASSERT_TRUE(damage);
+    EXPECT_EQ(damage->size(), at_end ? 0u : 1u);
+    const auto left = faces(fba::join_access_units(units));
+    EXPECT_EQ(compare(good, left).same, good.size() - lost) << seed;
+    if (at_end) continue;
+    EXPECT_EQ(left.rbegin()->first, good.rbegin()->first) << seed;
+    EXPECT_EQ(units.units.back().time, last);
+  }
+}
+
+TEST(Repair, TheStandardFormOfADamage) {
+  fba::AccessUnits units = units_of_clip(3);
+  const auto good = faces(fba::join_access_units(units));
+  units.units[30].bytes[3] = 0x55;  // its start code
+  int lost = 1;
+  while (!units.units[std::size_t(30 + lost)].intra) ++lost;
+  const auto damage = fba::repair_units(units);
+  ASSERT_TRUE(damage) << damage.error().describe();
+  ASSERT_EQ(damage->size(), 1u);
+  EXPECT_EQ((*damage)[0].frames, lost);
+  EXPECT_DOUBLE_EQ((*damage)[0].seconds, 30 / 25.0);
+  EXPECT_THAT((*damage)[0].describe(), testing::StartsWith("at 1.20 s (bit "));
+  EXPECT_THAT((*damage)[0].describe(),
+              testing::EndsWith(": a plane has no start code; " + std::to_string(lost) +
+                                " frames are lost"));
+  ASSERT_EQ(units.units.size(), std::size_t(kFrames - lost));
+  EXPECT_EQ(units.units[29].duration, (lost + 1) * units.units[28].duration);
+  const auto left = faces(fba::join_access_units(units));
+  EXPECT_EQ(compare(good, left).same, std::size_t(kFrames - lost));
+}
+
+TEST(Repair, ADamagedBeginningIsHeld) {
+  fba::AccessUnits units = units_of_clip(4);
+  Bytes stream = fba::join_access_units(units);
+  const auto good = faces(stream);
+  stream[12] ^= 0xFF;  // masks of the first plane
+  const auto repaired = fba::repair_stream(stream);
+  ASSERT_TRUE(repaired) << repaired.error().describe();
+  const auto left = faces(repaired->stream);
+  EXPECT_EQ(left.rbegin()->first, good.rbegin()->first);
+  EXPECT_EQ(compare(good, left).same, std::size_t(kFrames - kIntra));
+  ASSERT_EQ(left.count(0), 1u);
+  EXPECT_EQ(left.at(0).value, good.at(kIntra).value);
+}
+
+TEST(Repair, ACutStreamKeepsWhatIsThere) {
+  const fba::AccessUnits units = units_of_clip(5);
+  const Bytes stream = fba::join_access_units(units);
+  const auto good = faces(stream);
+  for (std::size_t size = units.units.front().bytes.size() + 20; size < stream.size(); size += 37) {
+    const auto repaired = fba::repair_stream(std::span(stream).first(size));
+    ASSERT_TRUE(repaired) << repaired.error().describe();
+    EXPECT_EQ(repaired->damage.size(), 1u);
+    std::size_t whole = 0, begin = 0;
+    for (; whole < units.units.size(); ++whole) {
+      begin += units.units[whole].bytes.size();
+      if (begin > size) break;
+    }
+    const Kept kept = compare(good, faces(repaired->stream));
+    EXPECT_EQ(kept.same, whole) << size;
+    EXPECT_EQ(kept.wrong, 0u);
+  }
+}
+
+TEST(Repair, NothingLeftIsAnError) {
+  EXPECT_EQ(fba::repair_stream({}).error().code, Code::truncated);
+  const Bytes noise(500, 0x5A);
+  EXPECT_FALSE(fba::repair_stream(noise));
+  fba::AccessUnits units = units_of_clip(6);
+  units.units.erase(units.units.begin());
+  units.units.resize(4);
+  EXPECT_FALSE(fba::repair_units(units));
+}
+
+}  // namespace repair_test
+}  // namespace animeme

@@ -1,0 +1,29 @@
+/// @file
+/// Damaged streams: by default commands repair them, say so, and end with exit code 1 when the
+/// output is written; with --strict they end at the first damage.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "codec/decode/repair.h"
+
+namespace animeme::tools {
+
+/// Set by main() from --strict.
+void set_strict(bool strict);
+/// Whether damage is an error.
+bool is_strict();
+/// Prints a warning for each damage, and remembers that there was one.
+void report_damage(const std::string& path, std::span<const fba::Damage> damage);
+/// Whether report_damage() was called with any.
+bool damage_reported();
+/// A stream that could not be decoded, repaired; the damage is reported. nullopt: with --strict, or
+/// if nothing can be repaired or nothing is damaged.
+std::optional<std::vector<std::uint8_t>> repaired(std::span<const std::uint8_t> stream,
+                                                  const std::string& path);
+
+}  // namespace animeme::tools
