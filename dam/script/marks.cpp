@@ -88,7 +88,8 @@ bool names_a_sound(std::string_view inside) {
 }
 
 bool is_known_mark(std::string_view inside) {
-  return names_a_sound(inside) || lower_case(inside) == "unk";
+  const std::string name = lower_case(inside);
+  return names_a_sound(inside) || name == "unk" || name == "sic";
 }
 
 // Of what stands in square brackets in prose, some is said: "[he] came", "press [Enter]", "[1]". A
@@ -188,6 +189,8 @@ Unmarked without_marks(std::string_view text, MarksOf from) {
     at = end;
     const bool blank = out.text.empty() || out.text.back() == ' ' || out.text.back() == '\n';
     while (blank && at < text.size() && text[at] == ' ') ++at;
+    const bool ends = at < text.size() && std::string_view(".,;:!?").find(text[at]) != text.npos;
+    if (ends && !out.text.empty() && out.text.back() == ' ') out.text.pop_back();
   }
   return out;
 }

@@ -32,7 +32,7 @@ enum class MarksOf : std::uint8_t {
 
 /// A text without its marks.
 struct Unmarked {
-  std::string text;       ///< with one blank in place of each mark that had blanks around it
+  std::string text;       ///< with one blank, or none before punctuation, for a mark between blanks
   std::string mark;       ///< the first one, with its brackets; empty: there is none
   std::size_t count = 0;  ///< of marks
 };

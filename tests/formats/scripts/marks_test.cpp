@@ -90,7 +90,7 @@ TEST(Marks, LeaveATextAsItIs) {
   EXPECT_EQ(prose("[laughs] Hi Bob. (sighs) *giggles* Pam."), "Hi Bob. Pam.");
   EXPECT_EQ(prose("Bob (my dog) is *really* good [1]."), "Bob (my dog) is *really* good [1].");
   EXPECT_EQ(prose("2 * 3 * 4 (a sigh of relief"), "2 * 3 * 4 (a sigh of relief");
-  EXPECT_EQ(prose("Well [clears throat], yes."), "Well , yes.");
+  EXPECT_EQ(prose("Well [clears throat], yes."), "Well, yes.");
   EXPECT_EQ(dam::without_marks("Hi [my dog] Bob", MarksOf::captions).text, "Hi Bob");
   const auto two = dam::without_marks("(coughs) I [noise] see", MarksOf::captions);
   EXPECT_EQ(two.count, 2u);
