@@ -340,10 +340,13 @@ Error nothing_left(const std::optional<Error>& failure) {
   return failure.value_or(make_error(Code::truncated, "the stream holds no plane"));
 }
 
-// Whether a stream decodes without a doubt.
-bool is_sound(std::span<const std::uint8_t> stream) {
+// Whether a stream decodes, and without a doubt.
+enum class Soundness : std::uint8_t { damaged, doubtful, sound };
+
+Soundness soundness(std::span<const std::uint8_t> stream) {
   const Result<DecodedStream> decoded = decode(stream);
-  return decoded && decoded->warnings.empty();
+  if (!decoded) return Soundness::damaged;
+  return decoded->warnings.empty() ? Soundness::sound : Soundness::doubtful;
 }
 
 }  // namespace
@@ -361,7 +364,8 @@ std::string Damage::describe() const {
 
 Result<Repaired> repair_stream(std::span<const std::uint8_t> stream) {
   Repaired out;
-  if (is_sound(stream)) {
+  const Soundness found = soundness(stream);
+  if (found == Soundness::sound) {
     out.stream.assign(stream.begin(), stream.end());
     return out;
   }
@@ -371,7 +375,8 @@ Result<Repaired> repair_stream(std::span<const std::uint8_t> stream) {
   const std::span<const Kept> kept = repairer.kept();
   if (kept.empty()) return nothing_left(repairer.first_failure());
   out.damage = std::move(repairer.damage());
-  if (!parts.ended && (out.damage.empty() || repairer.following())) {
+  const bool cut_off = !parts.ended && found == Soundness::damaged;
+  if (cut_off && (out.damage.empty() || repairer.following())) {
     Damage& damage = out.damage.emplace_back();
     damage.bit = std::int64_t(stream.size()) * 8;
     damage.seconds = kept.back().rate.seconds(double(repairer.next()));
@@ -396,7 +401,8 @@ Result<Repaired> repair_stream(std::span<const std::uint8_t> stream) {
 }
 
 Result<std::vector<Damage>> repair_units(AccessUnits& units, std::span<const std::size_t> gaps) {
-  if (gaps.empty() && is_sound(join_access_units(units))) return std::vector<Damage>();
+  const bool doubt = soundness(join_access_units(units)) != Soundness::sound;
+  if (gaps.empty() && !doubt) return std::vector<Damage>();
   std::vector<Piece> pieces;
   std::int64_t offset = 0;
   for (const AccessUnit& unit : units.units) {

@@ -130,7 +130,7 @@ TEST(BadInput, TruncatedAndForeignStreams) {
   ASSERT_EQ(animeme({"speak", "--text", "Hello world", "-o", dir / "a.fba"}).exit_code, 0);
   const std::string stream = test::slurp(dir / "a.fba");
   spill(dir / "cut.fba", stream.substr(0, stream.size() / 2));
-  const auto result = fails(dir, {"decode", dir / "cut.fba", "-o", dir / "b.fap"});
+  const auto result = fails(dir, {"decode", dir / "cut.fba", "-o", dir / "b.fap", "--strict"});
   EXPECT_THAT(result.err, AllOf(HasSubstr("cut.fba"), HasSubstr("bit "), HasSubstr("ends")));
   spill(dir / "text.fba", "hello");
   fails(dir, {"decode", dir / "text.fba", "-o", dir / "b.fap"});
