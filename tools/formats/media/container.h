@@ -49,8 +49,8 @@ struct Container {
   /// Profile and level of the configuration, 0x61..0x64 for faces; 0: not given.
   std::uint8_t visual_profile = 0;
   std::optional<AudioInfo> audio;  ///< the best sound track
-  /// With ReadOptions::repair: planes that are missing, or were left out since they are damaged. The
-  /// plane before them lasts until the next intact one, and skips as many frames.
+  /// With ReadOptions::repair: planes that are missing, or were left out since they are damaged.
+  /// The plane before them lasts until the next intact one, and skips as many frames.
   std::vector<fba::Damage> damage;
   /// Anomalies that did not prevent reading, one sentence each.
   std::vector<std::string> warnings;

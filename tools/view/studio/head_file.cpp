@@ -248,6 +248,10 @@ Result<LoadedHead> load_head(const HeadChoice& choice) {
     }
     return loaded;
   } catch (const std::bad_alloc&) {
+    if (format_of(choice.head) == Format::none) {  // our own cannot be reduced
+      return make_error(Code::internal,
+                        "there is not enough memory for a head; close other programs");
+    }
     return make_error(Code::out_of_range,
                       "there is not enough memory for this head; reduce its meshes")
         .in_file(choice.head);
