@@ -167,9 +167,11 @@ TEST(Repair, ACutStreamKeepsWhatIsThere) {
   const Bytes stream = fba::join_access_units(units);
   const auto good = faces(stream);
   for (std::size_t size = units.units.front().bytes.size() + 20; size < stream.size(); size += 37) {
-    const auto repaired = fba::repair_stream(std::span(stream).first(size));
+    const auto cut = std::span(stream).first(size);
+    const auto repaired = fba::repair_stream(cut);
     ASSERT_TRUE(repaired) << repaired.error().describe();
-    EXPECT_EQ(repaired->damage.size(), 1u);
+    // Cut between two planes, a stream lacks no more than its end code.
+    EXPECT_EQ(repaired->damage.size(), fba::decode(cut) ? 0u : 1u);
     std::size_t whole = 0, begin = 0;
     for (; whole < units.units.size(); ++whole) {
       begin += units.units[whole].bytes.size();
