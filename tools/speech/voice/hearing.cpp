@@ -25,8 +25,7 @@ constexpr float kTraceOfLoud = 0.002f, kLeastTrace = 0.00025f;
 // mistakes. Between grid_others in noise and the recordings of measured.md.
 constexpr double kAgreement = 1.1, kOverconfidence = -0.17;
 constexpr double kLoudShare = 0.7;  // of frames that are all alike
-// The model has learned with a mean that some of the pauses are in.
-constexpr double kSpeechAndEdges = 1.05, kMostOfAll = 0.92;
+constexpr double kMostOfAll = 0.92;
 constexpr std::size_t kFewOfSpeech = 30;  // with speech: too few for a mean
 
 // What `count` of the levels reach.
@@ -97,7 +96,8 @@ bool is_speech(std::span<const std::uint8_t> speech, std::size_t frame) {
   return !speech.empty() && speech[std::min(frame + 1, speech.size() - 1)] != 0;
 }
 
-Cepstrum mean_of_speech(std::span<const Cepstrum> frames, std::span<const std::uint8_t> speech) {
+Cepstrum mean_of_speech(std::span<const Cepstrum> frames, std::span<const std::uint8_t> speech,
+                        double share) {
   std::vector<float> levels;
   std::size_t count = 0;
   for (std::size_t t = 0; t < frames.size(); ++t) {
@@ -106,7 +106,7 @@ Cepstrum mean_of_speech(std::span<const Cepstrum> frames, std::span<const std::u
   }
   if (count < kFewOfSpeech)
     return mean_above(frames, level_of_loudest(levels, kLoudShare * double(levels.size())));
-  return mean_above(frames, level_of_loudest(levels, std::min(kSpeechAndEdges * double(count),
+  return mean_above(frames, level_of_loudest(levels, std::min(share * double(count),
                                                               kMostOfAll * double(levels.size()))));
 }
 

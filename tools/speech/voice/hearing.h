@@ -54,8 +54,10 @@ bool is_speech(std::span<const std::uint8_t> speech, std::size_t frame);
 
 /// The mean of the frames that are speech, as is_speech() has it; of the louder seven tenths if
 /// that are hardly any. At least one frame. Silence and noise have another mean than the voice,
-/// which they would move by how much there is of them.
-Cepstrum mean_of_speech(std::span<const Cepstrum> frames, std::span<const std::uint8_t> speech);
+/// which they would move by how much there is of them. `share` times as many frames as are speech
+/// count, the loudest ones, up to 0.92 of all: above 1, the edges of the pauses are among them.
+Cepstrum mean_of_speech(std::span<const Cepstrum> frames, std::span<const std::uint8_t> speech,
+                        double share);
 
 /// Features of frame `at`, which has kFeatureReach neighbours on either side or the ends of
 /// `frames`.

@@ -147,6 +147,7 @@ void lean_on_words(const std::vector<WordPath>& words, std::vector<std::vector<f
   }
 }
 
+constexpr double kSpeechAndEdges = 1.05;  // of the frames with speech, for the mean
 constexpr double kLeastSeconds = 0.1;
 constexpr double kLeastSpeech = 0.1;        // seconds; less is a click
 constexpr double kUnsure = 0.1;             // of the whole: below, it may be no speech at all
@@ -364,8 +365,9 @@ Result<Recognition> listen(const media::Pcm& audio, const ListenOptions& options
     if (!opened && opened.error().code != Code::not_found) return opened.error();
     if (opened) words = std::move(*opened);
   }
-  Drawn drawn =
-      Drawing(*model, words.get(), frames, mean_of_speech(frames, part.speech), options).draw();
+  Drawn drawn = Drawing(*model, words.get(), frames,
+                        mean_of_speech(frames, part.speech, kSpeechAndEdges), options)
+                    .draw();
   const double origin = put_in_place(*model, part, audio.samples.size(), drawn);
   heard.script =
       script_of_path(*model, drawn.agreed, 0, origin, seconds, &drawn.votes, &heard.confidences);

@@ -220,7 +220,9 @@ float loudness_of(std::span<const float> samples, const std::vector<std::uint8_t
   return *high;
 }
 
-// The samples between what is nothing at either end.
+// The samples between what is nothing at either end. Behind many zeros they begin with the first
+// sound, so that the same frames are heard however many there are; a few stay, so that frames lie
+// where other programs have them.
 BlockRange without_zeros(std::span<const float> samples) {
   float peak = 0;
   for (const float sample : samples) peak = std::max(peak, std::abs(sample));
@@ -229,7 +231,8 @@ BlockRange without_zeros(std::span<const float> samples) {
   const auto heard = [&](float sample) { return std::abs(sample) > least; };
   const auto first = std::find_if(samples.begin(), samples.end(), heard);
   const auto last = std::find_if(samples.rbegin(), samples.rend(), heard);
-  return {std::size_t(first - samples.begin()), std::size_t(samples.rend() - last)};
+  const auto zeros = std::size_t(first - samples.begin());
+  return {zeros > kMarginBlocks * kSpeechBlock ? zeros : 0, std::size_t(samples.rend() - last)};
 }
 
 }  // namespace
