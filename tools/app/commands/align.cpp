@@ -11,6 +11,7 @@
 #include "tools/formats/common/text.h"
 #include "tools/formats/files/files.h"
 #include "tools/formats/files/output_file.h"
+#include "tools/speech/talking/marks.h"
 #include "tools/speech/talking/spoken.h"
 #include "tools/speech/talking/written_text.h"
 
@@ -134,13 +135,15 @@ Result<int> run(AlignOptions options) {
     }
   }
   const dam::Script& script = alignment->script;
-  const std::string lines = dam::write_script(script, extension_of(options.output));
+  const auto& sure = alignment->confidences;
+  const speech::Doubts doubts =
+      told ? speech::doubts_of(sure, alignment->words) : speech::doubts_of(script, sure);
+  const std::string lines =
+      speech::write_marked_script(script, {}, extension_of(options.output), doubts);
   if (auto written = write_file(options.output, lines); !written) return written.error();
   if (options.json) print_json(*alignment, !told);
-  char sure[32];
-  std::snprintf(sure, sizeof sure, "%.2f", alignment->confidence);
   say(name_of_output(options.output) + ": " + std::to_string(script.phones.size()) +
-      " phones, confidence " + sure);
+      format(" phones, confidence %.2f", alignment->confidence));
   return kOk;
 }
 
@@ -165,7 +168,8 @@ void add_options(OptionTable& cli, AlignOptions& options) {
           "no better than wrong texts do (another text, noise, no speech)")
       ->between(0.0, 1.0);
   cli.add("-o,--output", options.output,
-          "Script to write: .TextGrid (Praat), .tsv, .pho (MBROLA), .vtt (WebVTT), - for a "
+          "Script to write: .TextGrid (Praat, with confidences and doubtful parts), .tsv, .pho "
+          "(MBROLA), .vtt (WebVTT), - for a "
           "TextGrid on standard output; default: the name of the recording with .TextGrid, "
           "unless that file exists")
       ->output(joined(dam::script_endings(), " "), OutputKind::file_or_dash);

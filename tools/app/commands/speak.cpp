@@ -173,6 +173,12 @@ Json doubtful_words(const speech::Spoken& spoken) {
   return list;
 }
 
+speech::Doubts doubts_of(const speech::Spoken& spoken) {
+  if (spoken.heard) return speech::doubts_of(spoken.script, spoken.heard->confidences);
+  if (!spoken.alignment) return {};
+  return speech::doubts_of(spoken.alignment->confidences, spoken.alignment->words);
+}
+
 struct RecognisedPhone {
   dam::Phone phone;
   double confidence = 0;
@@ -370,8 +376,8 @@ Result<int> run(SpeakOptions& options) {
   }
   // Last, so that a failure leaves no file behind.
   if (!options.save_script.empty()) {
-    const std::string text = speech::write_marked_script(spoken->script, spoken->marks,
-                                                         extension_of(options.save_script));
+    const std::string text = speech::write_marked_script(
+        spoken->script, spoken->marks, extension_of(options.save_script), doubts_of(*spoken));
     if (auto done = write_file(options.save_script, text); !done) return done.error();
   }
   report(options, *spoken, *signal, synthesis);
@@ -398,7 +404,8 @@ void add_options(OptionTable& cli, SpeakOptions& options) {
       ->frame_rate()
       ->show_default();
   cli.add("--save-script", options.save_script,
-          "Also write the timed phones (.TextGrid, .tsv, .pho) or captions (.vtt, .srt)")
+          "Also write the timed phones (.TextGrid, .tsv, .pho) or captions (.vtt, .srt); a "
+          "TextGrid of a recording has tiers of confidences and of doubtful parts")
       ->output(joined(dam::script_endings(), " "), OutputKind::file);
   add_motion_options(cli, options.motion);
   cli.add("--no-closure", options.no_closure,

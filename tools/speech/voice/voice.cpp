@@ -100,6 +100,8 @@ Result<Speech> speak_text(std::string_view text, const VoiceOptions& options) {
   speech.marks = find_marks(raw, rate, *utterance);
   std::string letters = warn_of_letters(raw, *utterance, speech.languages);
   if (!letters.empty()) speech.warnings.push_back(std::move(letters));
+  std::string vowels = warn_of_missing_vowels(speech.script, speech.voice);
+  if (!vowels.empty()) speech.warnings.push_back(std::move(vowels));
   speech.audio.sample_rate = rate;
   speech.audio.samples.reserve(raw.samples.size());
   for (const std::int16_t sample : raw.samples) {

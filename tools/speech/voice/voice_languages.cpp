@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <set>
 
+#include "dam/script/phones.h"
 #include "dam/script/script_text_internal.h"
 #include "tools/speech/text/unicode.h"
 #include "tools/speech/voice/espeak_ipa.h"
@@ -169,6 +170,31 @@ std::string warn_of_letters(const RawSpeech& raw, const text::Utterance& utteran
   return text +
          ": letters that the voice does not know are spoken by name or in another language; select "
          "a voice for their language (--lang)";
+}
+
+std::string warn_of_missing_vowels(const dam::Script& script, const std::string& voice) {
+  // The names of months and days in 71 languages: Hebrew has 0.09, all others 0.43 to 1.2.
+  constexpr double kLeastVowels = 0.33;  // per consonant
+  constexpr std::size_t kEnoughConsonants = 10;
+  const auto& phones = script.phones;
+  const auto is_vowel = [&](std::size_t i) {
+    const dam::PhoneInfo* info = i < phones.size() ? dam::find_phone(phones[i].label) : nullptr;
+    return info != nullptr && info->vowel;
+  };
+  std::size_t vowels = 0, consonants = 0;
+  for (std::size_t i = 0; i < phones.size(); ++i) {
+    if (phones[i].label == dam::kSilence) continue;
+    const bool carries =
+        is_vowel(i) || (phones[i].label == "R" && !(i > 0 && is_vowel(i - 1)) && !is_vowel(i + 1));
+    ++(carries ? vowels : consonants);
+  }
+  if (consonants < kEnoughConsonants || double(vowels) >= kLeastVowels * double(consonants)) {
+    return {};
+  }
+  return "the voice " + voice + " speaks this text with hardly any vowels (" +
+         std::to_string(vowels) + " beside " + std::to_string(consonants) +
+         " consonants), so it is not intelligible: write the vowels (points), or use another voice "
+         "(--tts)";
 }
 
 void correct_ipa(RawSpeech& raw, const text::Utterance& utterance) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "dam/script/script.h"
 #include "tools/speech/text/utterance.h"
 #include "tools/speech/voice/espeak_process.h"
 
@@ -24,6 +25,11 @@ std::vector<SpeechMark> find_marks(const RawSpeech& raw, int sample_rate,
 /// all of them; empty if there are none.
 std::string warn_of_letters(const RawSpeech& raw, const text::Utterance& utterance,
                             const std::vector<SpokenLanguage>& languages);
+
+/// Speech with hardly any vowels, as of a language whose writing leaves them out and whose voice
+/// does not know them (Hebrew without points): a sentence about it; empty if there are enough, or
+/// too few phones to tell. An R between consonants counts as a vowel, which it is in "krk".
+std::string warn_of_missing_vowels(const dam::Script& script, const std::string& voice);
 
 /// Of events in several voices: the IPA that each of them means (espeak_ipa.h).
 void correct_ipa(RawSpeech& raw, const text::Utterance& utterance);
