@@ -28,6 +28,14 @@ constexpr std::pair<std::string_view, std::string_view> kOpponents[] = {
     {"mouthRollUpper", "mouthUpperUpRight"},
     {"mouthRollLower", "mouthLowerDownLeft"},
     {"mouthRollLower", "mouthLowerDownRight"},
+    {"mouthPucker", "mouthStretchLeft"},
+    {"mouthPucker", "mouthStretchRight"},
+    {"mouthFunnel", "mouthRollUpper"},
+    {"mouthFunnel", "mouthRollLower"},
+    {"mouthPressLeft", "mouthUpperUpLeft"},
+    {"mouthPressRight", "mouthUpperUpRight"},
+    {"mouthPressLeft", "mouthLowerDownLeft"},
+    {"mouthPressRight", "mouthLowerDownRight"},
     {"eyeBlinkLeft", "eyeWideLeft"},
     {"eyeBlinkRight", "eyeWideRight"}};
 

@@ -162,7 +162,11 @@ FaceFit::FaceFit(Shapes shapes, std::span<const std::optional<int>> channels,
       weights_(shapes_.size(), 0.0) {
   std::vector<std::optional<int>> some;
   for (const std::size_t i : few_of_) some.push_back(channel_at(channels, i));
-  if (!channels.empty()) few_.set_sparsity(sparsity_of(some, options.sparsity));
+  if (!channels.empty()) {
+    Sparsity sparsity = sparsity_of(some, options.sparsity);
+    for (const auto& [a, b] : sparsity.opponents) opponents_.push_back({few_of_[a], few_of_[b]});
+    few_.set_sparsity(std::move(sparsity));
+  }
   for (const std::size_t i : lids_) {
     for (int side = 0; side < 2; ++side) {
       if (value_of(shapes_[i], 19 + side) >= kCloses) blinks_[std::size_t(side)].push_back(i);
@@ -199,6 +203,16 @@ void FaceFit::fit_few(const Mask& mask, const FapValues& target) {
   for (const std::size_t i : others_) take_off(i, weights_[i], left);
   const std::vector<double>& upper = upper_.fit(mask & kLids, left);
   for (std::size_t k = 0; k < lids_.size(); ++k) weights_[lids_[k]] = upper[k];
+}
+
+// What is left of both, where a face is nearly made of the shapes, goes as it is less so.
+void FaceFit::part_opponents(double certainty) {
+  constexpr double kUnseen = 0.05, kNearlyMade = 0.8;
+  const double share = std::clamp((certainty - kNearlyMade) / (1 - kNearlyMade), 0.0, 1.0);
+  for (const auto& [a, b] : opponents_) {
+    double& less = weights_[a] < weights_[b] ? weights_[a] : weights_[b];
+    if (less > kUnseen) less = kUnseen + share * (less - kUnseen);
+  }
 }
 
 void FaceFit::close_lids(const Mask& mask, const FapValues& target,
@@ -251,6 +265,7 @@ const std::vector<double>& FaceFit::fit(const Frame& frame, FapValues target,
     double& weight = weights_[made_[k]];
     weight += certainty * (made_weights_[k] - weight);
   }
+  if (certainty < 1) part_opponents(certainty);
   close_lids(frame.mask, given, looks_down);
   return weights_;
 }

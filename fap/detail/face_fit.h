@@ -48,6 +48,7 @@ class FaceFit {
 
   void turn_eyes(const Mask& mask, FapValues& target, std::array<double, 2>& looks_down);
   void fit_few(const Mask& mask, const FapValues& target);
+  void part_opponents(double certainty);
   void close_lids(const Mask& mask, const FapValues& target,
                   const std::array<double, 2>& looks_down);
   void take_off(std::size_t shape, double weight, FapValues& target) const;
@@ -58,6 +59,7 @@ class FaceFit {
   std::array<Group, 2> blinks_;    // that close the left and the right eye
   ExactFit eyes_, upper_, whole_;  // of gaze_, lids_ and made_
   BoundedFit few_;                 // of few_of_
+  std::vector<Opponents> opponents_;
   bool sparse_ = false;
   std::vector<double> weights_, made_weights_;
 };

@@ -161,6 +161,43 @@ TEST(ArkitSequence, BlinksInSpeechOfOthers) {
   }
 }
 
+// Speech of a face that no shapes made: of two shapes that undo each other one is used.
+TEST(ArkitSequence, OppositesAreNotTogether) {
+  const std::pair<const char*, const char*> pairs[] = {{"mouthPucker", "mouthStretchLeft"},
+                                                       {"mouthPucker", "mouthStretchRight"},
+                                                       {"mouthFunnel", "mouthRollUpper"},
+                                                       {"mouthFunnel", "mouthRollLower"},
+                                                       {"mouthPressLeft", "mouthUpperUpLeft"},
+                                                       {"mouthPressRight", "mouthUpperUpRight"},
+                                                       {"mouthSmileLeft", "mouthFrownLeft"},
+                                                       {"mouthSmileRight", "mouthFrownRight"},
+                                                       {"mouthRollUpper", "mouthUpperUpLeft"},
+                                                       {"mouthRollLower", "mouthLowerDownLeft"},
+                                                       {"jawLeft", "jawRight"},
+                                                       {"mouthLeft", "mouthRight"},
+                                                       {"eyeBlinkLeft", "eyeWideLeft"},
+                                                       {"eyeBlinkRight", "eyeWideRight"}};
+  std::mt19937 random(11);
+  ArkitFitter fitter;
+  for (int i = 0; i < 200; ++i) {
+    const double t = i / 25.0;
+    Frame frame = arkit_to_fap(weights_of({{"jawOpen", 0.2 + 0.2 * std::sin(15 * t)},
+                                           {"mouthPucker", std::max(0.0, 0.7 * std::sin(9 * t))}}),
+                               kAllArkit);
+    // Lips further forward than they are narrow, as recorded ones are, and not the same left and
+    // right.
+    for (const std::size_t fap : {16, 17}) frame.value[fap] += int(150 * std::sin(9 * t));
+    for (const std::size_t fap : {4, 5, 8, 9, 10, 11, 51, 52, 55, 56, 57, 58, 12, 13, 6, 7}) {
+      frame.value[fap] += int(random() % 120) - 60;
+    }
+    const ArkitFrame found = fitter.fit(frame);
+    for (const auto& [one, other] : pairs) {
+      EXPECT_LE(std::min(found[channel(one)], found[channel(other)]), 0.05)
+          << one << " and " << other << " in frame " << i;
+    }
+  }
+}
+
 Sequence read_controls(const std::string& text) {
   std::istringstream lines(text);
   std::string line, cell;
