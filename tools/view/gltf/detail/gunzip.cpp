@@ -9,7 +9,7 @@ namespace animeme::gltf {
 namespace {
 
 constexpr int kGzipOnly = 16 + MAX_WBITS;
-constexpr std::size_t kBlock = 1 << 18;
+constexpr std::size_t kInflated = 1 << 18;
 
 struct Inflater {
   z_stream stream{};
@@ -38,11 +38,11 @@ Result<std::string> gunzip(std::span<const std::uint8_t> bytes, std::size_t most
       left -= stream.avail_in;
     }
     const std::size_t before = text.size();
-    text.resize(before + kBlock);
+    text.resize(before + kInflated);
     stream.next_out = reinterpret_cast<Bytef*>(text.data() + before);
-    stream.avail_out = uInt(kBlock);
+    stream.avail_out = uInt(kInflated);
     const int state = inflate(&stream, Z_NO_FLUSH);
-    text.resize(before + kBlock - stream.avail_out);
+    text.resize(before + kInflated - stream.avail_out);
     if (text.size() > most) {
       return make_error(Code::out_of_range,
                         "it is larger than " + std::to_string(most) + " bytes when unpacked");
