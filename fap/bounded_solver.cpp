@@ -17,6 +17,9 @@ void BoundedSolver::solve(std::span<const double> matrix, std::span<const double
   const std::size_t n = weights.size();
   slopes_.assign(wanted.begin(), wanted.end());
   bounds_.resize(n);
+  free_.reserve(n);  // once, so that no later frame allocates
+  factors_.reserve(n * n);
+  steps_.reserve(n);
   for (std::size_t i = 0; i < n; ++i) {
     bounds_[i] = Bound::excluded;
     if (matrix[i * n + i] <= 0) continue;

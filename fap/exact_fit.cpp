@@ -33,6 +33,7 @@ void ExactFit::set_mask(const Mask& mask) {
   has_gram_ = true;
   const std::size_t n = columns_.size();
   gram_.assign(n * n, 0);
+  kept_.resize(n);  // now, so that no later frame allocates
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
       double sum = 0;

@@ -1,8 +1,10 @@
 #include <array>
+#include <string>
 #include <utility>
 
 #include "dam/signal/articulators_internal.h"
 #include "dam/signal/fap_signal.h"
+#include "fap/detail/text_scanner.h"
 
 namespace animeme::dam {
 namespace {
@@ -20,23 +22,24 @@ constexpr std::array<Articulator, 69> by_fap() {
 }
 constexpr auto kByFap = by_fap();
 
-/// The first that a name begins with.
+/// The first that a name begins with, in any case: names of rigs.
 constexpr std::pair<std::string_view, Articulator> kControlShapes[] = {
     {"jaw", Articulator::jaw},
-    {"mouthStretch", Articulator::width},
-    {"mouthDimple", Articulator::width},
-    {"mouthSmile", Articulator::corners},
-    {"mouthFrown", Articulator::corners},
-    {"mouthPucker", Articulator::forward},
-    {"mouthFunnel", Articulator::forward},
+    {"mouthstretch", Articulator::width},
+    {"mouthdimple", Articulator::width},
+    {"mouthsmile", Articulator::corners},
+    {"mouthfrown", Articulator::corners},
+    {"mouthpucker", Articulator::forward},
+    {"mouthfunnel", Articulator::forward},
     {"mouth", Articulator::lips}};
 
 }  // namespace
 
 Articulator articulator_of(std::string_view control) {
   if (const int fap = fap_of_channel(control); fap > 0) return kByFap[std::size_t(fap)];
+  const std::string name = fap::detail::lower_case(control);
   for (const auto& [begin, articulator] : kControlShapes)
-    if (control.starts_with(begin)) return articulator;
+    if (name.starts_with(begin)) return articulator;
   return Articulator::other;
 }
 

@@ -266,7 +266,7 @@ TEST(FaceText, StreamsAreReadInPieces) {
   std::string cut = slurp(dir / "a.fba");
   cut.resize(cut.size() / 2);
   spill(dir / "cut.fba", cut);
-  EXPECT_EQ(animeme({"decode", dir / "cut.fba", "-o", dir / "x.fap"}).exit_code, 3);
+  EXPECT_EQ(animeme({"decode", dir / "cut.fba", "-o", dir / "x.fap", "--strict"}).exit_code, 3);
   EXPECT_FALSE(std::filesystem::exists(dir / "x.fap"));
 }
 

@@ -426,7 +426,7 @@ void soak(bool joins, unsigned seed) {
   closing /= speaking;
   // A frame until it is followed, 0.1 s for most mouths; the widest take a frame more.
   EXPECT_LE(closed_after, 0.04 + 0.12);
-  EXPECT_LE(closing, 0.1);
+  EXPECT_LE(closing, 0.1 + 0.1 * 0.04);  // one in ten is that wide
   EXPECT_LE(silent_after, 0.11);
   std::printf(
       "%.0f s: largest step %.2f of that of speech; %.0f stops: mouth closed after %.0f ms (worst "

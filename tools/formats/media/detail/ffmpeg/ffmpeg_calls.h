@@ -87,6 +87,7 @@
 #define avio_flush ANIMEME_FFMPEG(avio_flush)
 #define avio_open2 ANIMEME_FFMPEG(avio_open2)
 #define avio_read_partial ANIMEME_FFMPEG(avio_read_partial)
+#define avio_size ANIMEME_FFMPEG(avio_size)
 #define avio_write ANIMEME_FFMPEG(avio_write)
 #define swr_alloc_set_opts2 ANIMEME_FFMPEG(swr_alloc_set_opts2)
 #define swr_convert ANIMEME_FFMPEG(swr_convert)

@@ -106,6 +106,7 @@ extern "C" {
   X(avio_flush) \
   X(avio_open2) \
   X(avio_read_partial) \
+  X(avio_size) \
   X(avio_write) \
   X(swr_alloc_set_opts2) \
   X(swr_convert) \
