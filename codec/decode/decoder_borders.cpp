@@ -4,8 +4,6 @@ namespace animeme::fba {
 
 namespace {
 
-bool is_plane_start(std::uint32_t code) { return code == kPlaneStart || code == kOldPlaneStart; }
-bool is_object_start(std::uint32_t code) { return code == kObjectStart || code == kOldObjectStart; }
 bool is_header(std::uint32_t code) {
   return code == kSequenceStart || code == kUserData || code == kVisualObject ||
          is_object_start(code);
@@ -107,20 +105,11 @@ void Decoder::Impl::end(std::size_t bit) {
   end_bit = stream_bit(bit);
 }
 
-bool Decoder::Impl::is_stuffing(std::size_t bit, std::size_t border) const {
-  BitReader in(buffer, bit);
-  if (in.bit() != 0) return false;
-  while (in.position() < border) {
-    if (in.bit() == 0) return false;
-  }
-  return true;
-}
-
 Result<bool> Decoder::Impl::plane_border() {
   const std::size_t border = (position / 8 + 1) * 8;
   if (!available(border + 32)) {
     if (!finished) return need_data();
-    const bool stuffed = border == size_bits() && is_stuffing(position, border);
+    const bool stuffed = border == size_bits() && BitReader(buffer, position).at_stuffing();
     if (stuffed && had_start_code) {
       // Access units one after the other: each is complete in itself.
       warn("the stream has no end code", size_bits());
@@ -148,7 +137,7 @@ Result<bool> Decoder::Impl::plane_border() {
   if (!available(border + 32)) return false;
   const std::uint32_t code = code_at(border);
   if (is_plane_start(code) || code == kSequenceEnd || is_header(code)) {
-    if (!is_stuffing(position, border)) {
+    if (!BitReader(buffer, position).at_stuffing()) {
       // An object is over behind a plane only: its first one comes whatever follows.
       if (first_plane && !is_plane_start(code)) return false;
       warn(
@@ -168,7 +157,7 @@ Result<bool> Decoder::Impl::plane_border() {
     }
     return true;
   }
-  if ((code >> 8) == 1 && is_stuffing(position, border) && !plane_like_the_last()) {
+  if ((code >> 8) == 1 && BitReader(buffer, position).at_stuffing() && !plane_like_the_last()) {
     foreign_code(code, border);
     return true;
   }

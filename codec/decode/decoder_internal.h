@@ -104,9 +104,6 @@ struct Decoder::Impl {
   Result<bool> skip_to(bool lost);
   void end(std::size_t bit);
 
-  // 0 and then 1s from `bit` to `border`.
-  bool is_stuffing(std::size_t bit, std::size_t border) const;
-
   // codec/bitstream.md, section 1: is it a start code that follows, behind 1 to 8 stuffing bits?
   // True: something other than a plane was found and the phase has changed.
   Result<bool> plane_border();

@@ -13,12 +13,11 @@ constexpr std::size_t kEnough = 64;  // bytes: rate, time code and a few hundred
 
 // Behind the start codes of a unit; false: there is no plane.
 bool find_plane(BitReader& in) {
-  if (in.peek32() == kObjectStart || in.peek32() == kOldObjectStart) {
+  if (is_object_start(in.peek32())) {
     in.bits(32);
     if (in.peek32() >> 24 == kStuffing) in.bits(8);
   }
-  const std::uint32_t code = in.bits(32);
-  return code == kPlaneStart || code == kOldPlaneStart;
+  return is_plane_start(in.bits(32));
 }
 
 }  // namespace

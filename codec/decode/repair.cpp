@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <functional>
+#include <numeric>
 #include <optional>
 #include <utility>
 
-#include "codec/decode/decoder.h"
+#include "codec/decode/decoder_internal.h"
 #include "codec/decode/plane_header.h"
 #include "codec/decode/unit_writer_internal.h"
 #include "codec/syntax/bits.h"
@@ -17,15 +19,10 @@ namespace animeme::fba {
 namespace {
 
 constexpr std::array<std::uint8_t, 4> kPlaneCode = {0x00, 0x00, 0x01, 0xBB};
+constexpr std::array<std::uint8_t, 4> kEndCode = {0x00, 0x00, 0x01, 0xB1};
 constexpr std::int64_t kMostHeld = std::int64_t(1) << 20;  // frames; more is not believed
 constexpr std::uint32_t kMostSkipped = 1 << 12;  // the same of a header that may be damaged
 constexpr std::size_t kUsual = 3;                // planes that are alike make a rule
-
-bool is_code(std::uint32_t code, std::uint32_t now, std::uint32_t old) {
-  return code == now || code == old;
-}
-bool is_plane_code(std::uint32_t code) { return is_code(code, kPlaneStart, kOldPlaneStart); }
-bool is_object_code(std::uint32_t code) { return is_code(code, kObjectStart, kOldObjectStart); }
 
 // The bytes of a unit: start codes, one plane or several, stuffing.
 struct Piece {
@@ -45,31 +42,22 @@ Piece piece_of(std::span<const std::uint8_t> unit, std::int64_t offset) {
   piece.bytes = unit;
   piece.offset = offset;
   const BitReader in(unit);
-  piece.object = is_object_code(in.peek32(0));
+  piece.object = is_object_start(in.peek32(0));
   if (piece.object) piece.plane_at = unit.size() > 4 && unit[4] == 0x7F ? 5 : 4;
-  piece.coded = is_plane_code(in.peek32(piece.plane_at * 8));
+  piece.coded = is_plane_start(in.peek32(piece.plane_at * 8));
   if (piece.coded) piece.plane_at += kPlaneCode.size();
   return piece;
 }
 
-// Zeros and ones from a bit to the byte border as next_start_code() has them.
-bool is_stuffed(std::span<const std::uint8_t> bytes, std::int64_t bit) {
-  BitReader in(bytes, std::size_t(bit));
-  const std::size_t border = (std::size_t(bit) / 8 + 1) * 8;
-  if (in.bit() != 0) return false;
-  while (in.position() < border) {
-    if (in.bit() == 0) return false;
-  }
-  return !in.overrun();
-}
-
-// A start code of which one byte is wrong.
-bool is_nearly_code(std::span<const std::uint8_t> bytes, std::size_t at) {
-  if (at + kPlaneCode.size() >= bytes.size()) return false;
-  int wrong = 0;
-  for (std::size_t i = 0; i < kPlaneCode.size(); ++i)
-    wrong += bytes[at + i] != kPlaneCode[i] ? 1 : 0;
-  return wrong == 1;
+// Whether stuffing follows a plane, and then a start code of which one byte is wrong.
+bool ends_at_damaged_code(std::span<const std::uint8_t> bytes, const Plane& plane) {
+  const auto end = std::size_t(plane.bit_end);
+  const std::size_t at = end / 8 + 1;
+  if (!BitReader(bytes, end).at_stuffing() || at + kPlaneCode.size() >= bytes.size()) return false;
+  const auto same =
+      std::inner_product(kPlaneCode.begin(), kPlaneCode.end(), bytes.begin() + std::ptrdiff_t(at),
+                         std::size_t(0), std::plus<>(), std::equal_to<>());
+  return same + 1 == kPlaneCode.size();
 }
 
 // A plane that can be decoded.
@@ -150,7 +138,7 @@ std::optional<Error> Repairer::decode_piece(const Piece& piece, bool goes_on,
   if (stuffing < 0 || stuffing > 8) return misplaced(end);
   const bool alike = kept_.size() >= kUsual;
   if (single_ && alike && planes.size() > 1) return misplaced(planes.front().bit_end);
-  const bool stuffed = is_stuffed(piece.bytes, end);
+  const bool stuffed = BitReader(piece.bytes, std::size_t(end)).at_stuffing();
   if (stuffed_ && alike && !stuffed) return misplaced(end);
   stuffed_ = stuffed_ && stuffed;
   single_ = single_ && planes.size() == 1;
@@ -253,9 +241,7 @@ void Repairer::take(std::size_t index) {
   const bool cut_off = failed->code == Code::truncated || index + 1 == pieces_.size();
   std::size_t good = planes.size() - (planes.empty() || cut_off ? 0 : 1);
   if (single_ && kept_.size() >= kUsual) {
-    const bool whole = !planes.empty() && is_stuffed(piece.bytes, planes.front().bit_end) &&
-                       is_nearly_code(piece.bytes, std::size_t(planes.front().bit_end / 8 + 1));
-    good = whole ? 1 : 0;
+    good = !planes.empty() && ends_at_damaged_code(piece.bytes, planes.front()) ? 1 : 0;
   } else {
     single_ = single_ && planes.size() <= 1;
   }
@@ -265,10 +251,20 @@ void Repairer::take(std::size_t index) {
   lose(piece.offset * 8 + from, *failed, frames_of(piece, size - from, estimated), estimated);
 }
 
-// The units of the planes that were kept, with as many skipped frames as lie behind each.
-std::vector<AccessUnit> units_of(std::span<const Kept> kept, std::span<const Piece> pieces) {
+// The units of the planes that were kept, with as many skipped frames as lie behind each. With
+// `from_start` the first one is there twice if frames before it are lost: it is held from the start
+// of the stream. The second is a plane of the same object, as decoders may end at another one.
+std::vector<AccessUnit> units_of(std::span<const Kept> kept, std::span<const Piece> pieces,
+                                 bool from_start) {
   std::vector<AccessUnit> units;
-  units.reserve(kept.size());
+  units.reserve(kept.size() + 1);
+  if (from_start && kept.front().number > 0) {
+    const Kept& first = kept.front();
+    AccessUnit& held = units.emplace_back();
+    held.bytes = internal::write_unit(pieces[first.piece].bytes, first.bit_begin, first.bit_end,
+                                      true, std::uint32_t(first.number - 1));
+    held.intra = true;
+  }
   for (std::size_t i = 0; i < kept.size(); ++i) {
     const Kept& plane = kept[i];
     std::optional<std::uint32_t> skip;
@@ -279,7 +275,7 @@ std::vector<AccessUnit> units_of(std::span<const Kept> kept, std::span<const Pie
     }
     AccessUnit& unit = units.emplace_back();
     unit.bytes = internal::write_unit(pieces[plane.piece].bytes, plane.bit_begin, plane.bit_end,
-                                      i == 0 || plane.object, skip);
+                                      units.size() == 1 || (i > 0 && plane.object), skip);
     unit.intra = plane.intra;
   }
   return units;
@@ -313,8 +309,8 @@ Cut cut(std::span<const std::uint8_t> stream) {
       out.ended = true;
       return out;
     }
-    if (is_plane_code(code) || is_object_code(code)) {
-      close(at, is_plane_code(code));
+    if (is_plane_start(code) || is_object_start(code)) {
+      close(at, is_plane_start(code));
       begin = at;
       const Piece piece = piece_of(stream.subspan(at), 0);
       if (piece.object && piece.coded) at = *begin + piece.plane_at - 1;
@@ -343,10 +339,39 @@ Error nothing_left(const std::optional<Error>& failure) {
 // Whether a stream decodes, and without a doubt.
 enum class Soundness : std::uint8_t { damaged, doubtful, sound };
 
+// `next` gives the bytes piece by piece, and nothing at the end. Only a plane at a time is kept.
+Soundness soundness(const std::function<std::span<const std::uint8_t>()>& next) {
+  Decoder decoder;
+  bool doubt = false;
+  for (;;) {
+    const Result<Event> event = decoder.next();
+    if (event) {
+      doubt = doubt || event->kind == Event::Kind::warning;
+      continue;
+    }
+    if (event.error().code == Code::end_of_stream) break;
+    if (event.error().code != Code::need_data) return Soundness::damaged;
+    const std::span<const std::uint8_t> bytes = next();
+    decoder.push(bytes);
+    if (bytes.empty()) decoder.finish();
+  }
+  return doubt ? Soundness::doubtful : Soundness::sound;
+}
+
 Soundness soundness(std::span<const std::uint8_t> stream) {
-  const Result<DecodedStream> decoded = decode(stream);
-  if (!decoded) return Soundness::damaged;
-  return decoded->warnings.empty() ? Soundness::sound : Soundness::doubtful;
+  return soundness([&] {
+    const auto piece = stream.first(std::min(internal::kPieceBytes, stream.size()));
+    stream = stream.subspan(piece.size());
+    return piece;
+  });
+}
+
+Soundness soundness(const AccessUnits& units) {
+  std::size_t at = 0;
+  return soundness([&]() -> std::span<const std::uint8_t> {
+    if (at < units.units.size()) return units.units[at++].bytes;
+    return at++ == units.units.size() ? std::span(kEndCode) : std::span<const std::uint8_t>();
+  });
 }
 
 }  // namespace
@@ -387,22 +412,13 @@ Result<Repaired> repair_stream(std::span<const std::uint8_t> stream) {
     return out;
   }
   AccessUnits units;
-  units.units = units_of(kept, parts.pieces);
-  // The first plane is shown from the beginning.
-  if (kept.front().number > 0) {
-    const Kept& first = kept.front();
-    AccessUnit held;
-    held.bytes = internal::write_unit(parts.pieces[first.piece].bytes, first.bit_begin,
-                                      first.bit_end, true, std::uint32_t(first.number - 1));
-    units.units.insert(units.units.begin(), std::move(held));
-  }
+  units.units = units_of(kept, parts.pieces, true);
   out.stream = join_access_units(units);
   return out;
 }
 
 Result<std::vector<Damage>> repair_units(AccessUnits& units, std::span<const std::size_t> gaps) {
-  const bool doubt = soundness(join_access_units(units)) != Soundness::sound;
-  if (gaps.empty() && !doubt) return std::vector<Damage>();
+  if (gaps.empty() && soundness(units) == Soundness::sound) return std::vector<Damage>();
   std::vector<Piece> pieces;
   std::int64_t offset = 0;
   for (const AccessUnit& unit : units.units) {
@@ -416,7 +432,7 @@ Result<std::vector<Damage>> repair_units(AccessUnits& units, std::span<const std
   const std::span<const Kept> kept = repairer.kept();
   if (kept.empty()) return nothing_left(repairer.first_failure());
   if (repairer.damage().empty()) return std::vector<Damage>();
-  std::vector<AccessUnit> intact = units_of(kept, pieces);
+  std::vector<AccessUnit> intact = units_of(kept, pieces, false);
   for (std::size_t i = 0; i < intact.size(); ++i) {
     AccessUnit& unit = intact[i];
     const AccessUnit& from = units.units[kept[i].piece];

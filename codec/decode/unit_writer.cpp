@@ -1,6 +1,5 @@
 #include "codec/decode/unit_writer_internal.h"
 
-#include "codec/syntax/bits.h"
 #include "codec/syntax/plane.h"
 
 namespace animeme::fba::internal {
@@ -23,13 +22,6 @@ int bits_before_skip(BitReader in) {
   return int(in.position() - begin);
 }
 
-void write_skip(BitWriter& out, std::uint32_t skip) {
-  out.bit(skip > 0);
-  if (skip == 0) return;
-  for (; skip >= 15; skip -= 15) out.bits(15, 4);
-  out.bits(skip, 4);
-}
-
 void pass_skip(BitReader& in) {
   if (in.bit() == 0) return;
   while (in.bits(4) == 15 && !in.overrun()) {
@@ -37,6 +29,14 @@ void pass_skip(BitReader& in) {
 }
 
 }  // namespace
+
+void write_skip(BitWriter& out, const std::optional<std::uint32_t>& skip) {
+  out.bit(skip.has_value());
+  if (!skip) return;
+  std::uint32_t rest = *skip;
+  for (; rest >= 15; rest -= 15) out.bits(15, 4);
+  out.bits(rest, 4);
+}
 
 std::vector<std::uint8_t> write_unit(std::span<const std::uint8_t> stream, std::int64_t begin,
                                      std::int64_t end, bool first,
@@ -51,7 +51,7 @@ std::vector<std::uint8_t> write_unit(std::span<const std::uint8_t> stream, std::
   const int before = skip ? bits_before_skip(in) : 0;
   if (before > 0) {
     copy(in, out, before);
-    write_skip(out, *skip);
+    write_skip(out, *skip > 0 ? skip : std::nullopt);
     pass_skip(in);
   }
   copy(in, out, end - std::int64_t(in.position()));

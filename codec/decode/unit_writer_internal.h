@@ -6,7 +6,12 @@
 #include <span>
 #include <vector>
 
+#include "codec/syntax/bits.h"
+
 namespace animeme::fba::internal {
+
+/// The field skip_frames and, if it is set, the number; 0 may be coded, too.
+void write_skip(BitWriter& out, const std::optional<std::uint32_t>& skip);
 
 /// The bits from `begin` to `end` of a stream, which are a plane, shifted to behind a plane start
 /// code; `first`: and an object start code. `skip`: the frames that it skips, in place of those

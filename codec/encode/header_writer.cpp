@@ -1,18 +1,11 @@
 #include "codec/encode/header_writer_internal.h"
 
+#include "codec/decode/unit_writer_internal.h"
 #include "codec/syntax/state_internal.h"
 
 namespace animeme::fba::internal {
 
 namespace {
-
-void write_skip(BitWriter& out, const std::optional<std::uint32_t>& skip) {
-  out.bit(skip.has_value());
-  if (!skip) return;
-  std::uint32_t rest = *skip;
-  for (; rest >= 15; rest -= 15) out.bits(15, 4);
-  out.bits(rest, 4);
-}
 
 template <class Settings>
 void write_ranges(BitWriter& out, const SlotTable& table, const Settings& settings) {

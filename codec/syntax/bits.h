@@ -27,6 +27,18 @@ class BitReader {
   bool overrun() const { return bit_ > size(); }
   void seek(std::size_t bit) { bit_ = bit; }  ///< any position, also past the end
 
+  /// Whether the bits from here to the byte boundary, or a whole byte at one, are those of
+  /// BitWriter::stuff().
+  bool at_stuffing() const {
+    BitReader in = *this;
+    const std::size_t boundary = (bit_ / 8 + 1) * 8;
+    if (boundary > size() || in.bit() != 0) return false;
+    while (in.bit_ < boundary) {
+      if (in.bit() == 0) return false;
+    }
+    return true;
+  }
+
   /// One bit; 0 past the end.
   std::uint32_t bit() {
     const std::size_t byte = bit_ >> 3;

@@ -24,6 +24,15 @@ inline constexpr std::uint32_t kPlaneStart = 0x000001BB;      ///< before any pl
 inline constexpr std::uint32_t kOldObjectStart = 0x00000101;  ///< of drafts, still accepted
 inline constexpr std::uint32_t kOldPlaneStart = 0x00000103;   ///< of drafts, still accepted
 
+/// Whether a start code begins a plane, of the standard or of its drafts.
+constexpr bool is_plane_start(std::uint32_t code) {
+  return code == kPlaneStart || code == kOldPlaneStart;
+}
+/// Whether a start code begins an object, of the standard or of its drafts.
+constexpr bool is_object_start(std::uint32_t code) {
+  return code == kObjectStart || code == kOldObjectStart;
+}
+
 /// fba_object_mask: content of a plane.
 enum class ObjectMask : std::uint8_t { nothing = 0, face = 1, body = 2, face_and_body = 3 };
 

@@ -8,6 +8,7 @@
 
 #include "codec/decode/access_unit.h"
 #include "codec/decode/decoder.h"
+#include "codec/decode/repair.h"
 #include "codec/encode/encode.h"
 #include "codec/encode/live.h"
 #include "tests/support/files.h"
@@ -290,6 +291,27 @@ TEST(StandardDecoder, HasTheValuesOfTheReferenceStreams) {
     ++count;
   }
   EXPECT_GT(count, 100);
+}
+
+TEST(Standard, RepairedStreamsAreReadByBoth) {
+  std::size_t damaged = 0;
+  for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+    Random random(seed);
+    fba::EncodeOptions options;
+    options.intra_seconds = 0.4;
+    const auto encoded = fba::encode(quiet_clip(random), options);
+    ASSERT_TRUE(encoded) << encoded.error().describe();
+    const auto units = fba::split_access_units(*encoded);
+    ASSERT_TRUE(units) << units.error().describe();
+    Bytes stream = fba::join_access_units(*units);
+    stream[std::size_t(random.range(0, int(stream.size()) - 1))] ^=
+        std::uint8_t(1 << random.range(0, 7));
+    const auto repaired = fba::repair_stream(stream);
+    if (!repaired || repaired->damage.empty()) continue;
+    ++damaged;
+    EXPECT_TRUE(both_read(repaired->stream)) << seed;
+  }
+  EXPECT_GT(damaged, 60u);
 }
 
 }  // namespace standard_test
