@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <set>
 #include <string>
-#include <utility>
 
 #include "tools/app/commands/terminal.h"
 
@@ -31,15 +30,6 @@ void report_damage(const std::string& path, std::span<const fba::Damage> damage)
   if (damage.size() <= kMostNamed) return;
   warn(path + ": and " + std::to_string(damage.size() - kMostNamed) + " more damaged places; " +
        std::to_string(frames) + " frames are lost in all");
-}
-
-std::optional<std::vector<std::uint8_t>> repaired(std::span<const std::uint8_t> stream,
-                                                  const std::string& path) {
-  if (is_strict()) return std::nullopt;
-  auto repaired = fba::repair_stream(stream);
-  if (!repaired || repaired->damage.empty()) return std::nullopt;
-  report_damage(path, repaired->damage);
-  return std::move(repaired->stream);
 }
 
 }  // namespace animeme::tools

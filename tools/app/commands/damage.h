@@ -3,11 +3,8 @@
 /// output is written; with --strict they end at the first damage.
 #pragma once
 
-#include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "codec/decode/repair.h"
 
@@ -21,9 +18,5 @@ bool is_strict();
 void report_damage(const std::string& path, std::span<const fba::Damage> damage);
 /// Whether report_damage() was called with any.
 bool damage_reported();
-/// A stream that could not be decoded, repaired; the damage is reported. nullopt: with --strict, or
-/// if nothing can be repaired or nothing is damaged.
-std::optional<std::vector<std::uint8_t>> repaired(std::span<const std::uint8_t> stream,
-                                                  const std::string& path);
 
 }  // namespace animeme::tools

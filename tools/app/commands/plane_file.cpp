@@ -68,14 +68,12 @@ bool PlaneFile::can_read(const std::string& path) {
 
 std::optional<PlaneFile> PlaneFile::repaired(const std::string& name) const {
   if (is_strict()) return std::nullopt;
-  std::optional<std::vector<std::uint8_t>> stream;
-  if (path_.empty()) {
-    stream = tools::repaired(bytes_, name);
-  } else if (const auto bytes = read_file(path_)) {
-    stream = tools::repaired(*bytes, name);
-  }
-  if (!stream) return std::nullopt;
-  return PlaneFile(std::move(*stream));
+  const auto bytes = path_.empty() ? bytes_ : read_file(path_);
+  if (!bytes) return std::nullopt;
+  auto repaired = fba::repair_stream(*bytes);
+  if (!repaired || repaired->damage.empty()) return std::nullopt;
+  report_damage(name, repaired->damage);
+  return PlaneFile(std::move(repaired->stream));
 }
 
 struct PlaneReader::Impl {

@@ -157,19 +157,15 @@ void ContainerReader::add_damage(std::int64_t found, const av::LogCapture& log) 
          return line.find("ended prematurely") != std::string::npos;
        }));
   if (missing <= 0 && !stopped && !cut) return;
-  fba::Damage end;
+  std::string reason = "the file is cut off";
   if (missing > 0) {
-    end.reason = "the file ends early: " + std::to_string(found) + " of " + std::to_string(stated) +
-                 " planes were found";
+    reason = "the file ends early: " + std::to_string(found) + " of " + std::to_string(stated) +
+             " planes were found";
   } else if (stopped) {
-    end.reason = "reading stopped early: " + av::error_text(status_);
-  } else {
-    end.reason = "the file is cut off";
+    reason = "reading stopped early: " + av::error_text(status_);
   }
-  if (!options_.repair) return result_.warnings.push_back(std::move(end.reason));
-  const fba::AccessUnit& last = result_.face.units.back();
-  end.seconds = double(last.time + last.duration) / result_.face.timescale;
-  result_.damage.push_back(std::move(end));
+  if (!options_.repair) return result_.warnings.push_back(std::move(reason));
+  add_damage_at_end(result_, std::move(reason));
 }
 
 Result<Container> ContainerReader::read(const av::LogCapture& log) {

@@ -110,6 +110,14 @@ void UnitCollector::set_durations() {
     last.duration = std::max<std::int64_t>(1, base_.den / (25 * std::int64_t(base_.num)));
 }
 
+void add_damage_at_end(Container& file, std::string reason, std::int64_t frames) {
+  fba::Damage& end = file.damage.emplace_back();
+  const fba::AccessUnit& last = file.face.units.back();
+  end.seconds = double(last.time + last.duration) / file.face.timescale;
+  end.frames = frames;
+  end.reason = std::move(reason);
+}
+
 void UnitCollector::find_gaps(bool noticed) {
   constexpr double kRoom = 0.75;      // of a frame
   constexpr std::size_t kUsual = 20;  // more than one in so many: their times mean something else
@@ -169,13 +177,10 @@ Result<void> UnitCollector::repair(Container& result) {
                       "the face track has no readable intra plane: " + damage.error().message);
   }
   result.damage = std::move(*damage);
-  if (!wait_for_intra_) return {};
-  fba::Damage end;
-  const fba::AccessUnit& last = result.face.units.back();
-  end.seconds = double(last.time + last.duration) / result.face.timescale;
-  end.frames = lost_ - lost_before_;
-  end.reason = "planes at the end are damaged or follow a damaged one";
-  result.damage.push_back(std::move(end));
+  if (wait_for_intra_) {
+    add_damage_at_end(result, "planes at the end are damaged or follow a damaged one",
+                      lost_ - lost_before_);
+  }
   return {};
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "tools/formats/media/container.h"
@@ -53,5 +54,8 @@ class UnitCollector {
   std::int64_t last_duration_ = 0;
   bool wait_for_intra_ = true;
 };
+
+/// Notes what is missing behind the last unit; there has to be one.
+void add_damage_at_end(Container& file, std::string reason, std::int64_t frames = 0);
 
 }  // namespace animeme::media
