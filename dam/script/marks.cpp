@@ -63,17 +63,6 @@ char closing_bracket(char open) {
   }
 }
 
-bool is_letter_or_digit(char c) {
-  const auto byte = static_cast<unsigned char>(c);
-  return byte >= 0x80 || (byte >= '0' && byte <= '9') ||
-         ((byte | 0x20) >= 'a' && (byte | 0x20) <= 'z');
-}
-
-bool is_letter(char c) {
-  const auto byte = static_cast<unsigned char>(c);
-  return byte >= 0x80 || ((byte | 0x20) >= 'a' && (byte | 0x20) <= 'z');
-}
-
 // "clears throat", "LAUGHTER", "speaks softly, sighs".
 bool names_a_sound(std::string_view inside) {
   const std::string text = lower_case(inside);

@@ -26,11 +26,7 @@ void make_silent(TimedLabel& label) {
 }
 
 bool is_spoken_word(std::string_view word) {
-  return std::any_of(word.begin(), word.end(), [](char c) {
-    const auto byte = static_cast<unsigned char>(c);
-    return byte >= 0x80 || (byte >= '0' && byte <= '9') ||
-           ((byte | 0x20) >= 'a' && (byte | 0x20) <= 'z');
-  });
+  return std::any_of(word.begin(), word.end(), is_letter_or_digit);
 }
 
 // A mark of several words that is a label a word: where its last one is; 0: none begins here.

@@ -56,6 +56,14 @@ class LineReader {
 /// Without blanks and tabs at both ends.
 std::string_view trimmed(std::string_view text);
 
+/// A letter of ASCII, or a byte of a longer character.
+constexpr bool is_letter(char c) {
+  const auto byte = static_cast<unsigned char>(c);
+  return byte >= 0x80 || ((byte | 0x20) >= 'a' && (byte | 0x20) <= 'z');
+}
+/// A letter in that sense, or a digit of ASCII.
+constexpr bool is_letter_or_digit(char c) { return is_letter(c) || (c >= '0' && c <= '9'); }
+
 using fap::detail::lower_case;
 
 }  // namespace animeme::dam

@@ -11,17 +11,13 @@ namespace {
 
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD", kApostrophe = "\xE2\x80\x99";
 
-bool is_letter(char c) {
-  const auto byte = static_cast<unsigned char>(c);
-  return byte >= 0x80 || ((byte | 0x20) >= 'a' && (byte | 0x20) <= 'z');
-}
-
 // What programs most often fail to convert is the apostrophe: "don\uFFFDt".
 void restore_apostrophes(std::string& text) {
   for (std::size_t at = text.find(kReplacement); at != text.npos;
        at = text.find(kReplacement, at + 1)) {
     const std::size_t end = at + kReplacement.size();
-    if (at == 0 || end == text.size() || !is_letter(text[at - 1]) || !is_letter(text[end])) {
+    if (at == 0 || end == text.size() || !dam::is_letter(text[at - 1]) ||
+        !dam::is_letter(text[end])) {
       continue;
     }
     text.replace(at, kReplacement.size(), kApostrophe);
