@@ -82,12 +82,6 @@ std::vector<std::size_t> beginnings_of(std::string_view name) {
   return at;
 }
 
-// The channel of the other side, "" if the shape has no sides.
-std::string other_side(std::string_view name) {
-  if (!name.ends_with("Left")) return {};
-  return std::string(name.substr(0, name.size() - 4)) + "Right";
-}
-
 ArkitWeight mirrored(const ArkitWeight& weight) {
   const internal::MirrorImage image = internal::mirror_image(weight.fap);
   return {image.fap, image.sign * weight.value};
@@ -100,7 +94,7 @@ ArkitWeights all_weights() {
   for (const internal::ArkitShape& shape : internal::arkit_shapes()) {
     auto& left = weights[std::size_t(find_arkit(shape.name).value_or(0))];
     left.assign(shape.weights.begin(), shape.weights.end());
-    const std::optional<int> right = find_arkit(other_side(shape.name));
+    const std::optional<int> right = arkit_other_side(find_arkit(shape.name).value_or(0));
     if (!right) continue;
     for (const ArkitWeight& weight : left) {
       weights[std::size_t(*right)].push_back(mirrored(weight));
@@ -129,6 +123,16 @@ void keep_lids_apart(Frame& frame, std::size_t upper, std::size_t lower) {
 const ArkitWeights& internal::arkit_weights() {
   static const ArkitWeights all = all_weights();
   return all;
+}
+
+std::optional<int> arkit_other_side(int channel) {
+  std::string name(kArkitNames[std::size_t(channel)]);
+  for (const auto& [side, other] : {std::pair("Left", "Right"), {"Right", "Left"}}) {
+    if (!name.ends_with(side)) continue;
+    return find_arkit(
+        name.replace(name.size() - std::string_view(side).size(), std::string::npos, other));
+  }
+  return std::nullopt;
 }
 
 std::optional<int> find_arkit(std::string_view name) {

@@ -43,6 +43,10 @@ extern const std::array<std::string_view, kArkitChannelCount> kArkitNames;
 /// ("blendShapes.JawOpen", "head_lod0_mesh__jawOpen").
 std::optional<int> find_arkit(std::string_view name);
 
+/// The channel of the same shape of the other side of the face (eyeBlinkLeft and eyeBlinkRight);
+/// nullopt: it has no sides, or is an angle. `channel` is 0..60.
+std::optional<int> arkit_other_side(int channel);
+
 /// One instant, by channel: weights of shapes, 1 is the full shape (trackers exceed it slightly,
 /// which is accepted as it is), and angles in radians. Positive angles as in Live Link Face: yaw to
 /// the person's right, pitch down, roll towards the person's left shoulder.

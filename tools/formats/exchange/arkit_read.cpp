@@ -141,17 +141,6 @@ Result<ArkitRows> read_rows(const std::vector<dam::TableLine>& lines, char separ
   return rows;
 }
 
-// The channel of the other side; nullopt if the shape has no sides.
-std::optional<int> other_side(int channel) {
-  std::string name(fap::kArkitNames[std::size_t(channel)]);
-  for (const auto& [side, other] : {std::pair("Left", "Right"), {"Right", "Left"}}) {
-    if (!name.ends_with(side)) continue;
-    return fap::find_arkit(
-        name.replace(name.size() - std::string_view(side).size(), std::string::npos, other));
-  }
-  return std::nullopt;
-}
-
 // The channels of the table but angles that were not recorded. A table that has a shape of one side
 // says that the other side rests.
 fap::ArkitChannels channels_of(const Columns& columns, const std::vector<fap::ArkitFrame>& values) {
@@ -162,7 +151,7 @@ fap::ArkitChannels channels_of(const Columns& columns, const std::vector<fap::Ar
                                    [&](const fap::ArkitFrame& row) { return row[channel] != 0; });
     channels[channel] = channel < fap::kArkitShapeCount || moves;
     if (channel >= fap::kArkitShapeCount) continue;
-    if (const auto other = other_side(number)) channels.set(std::size_t(*other));
+    if (const auto other = fap::arkit_other_side(number)) channels.set(std::size_t(*other));
   }
   return channels;
 }

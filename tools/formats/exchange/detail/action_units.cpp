@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
 #include "fap/arkit.h"
@@ -151,16 +150,22 @@ UnitColumns unit_columns(const Row& header) {
   return columns;
 }
 
-std::string pair_of(std::string_view shape) {
-  if (!shape.ends_with("Left")) return {};
-  return std::string(shape.substr(0, shape.size() - 4)) + "Right";
+// Calls `use` with each channel that a unit moves.
+template <class Use>
+void for_channels(const ActionUnit& unit, Use use) {
+  for (const std::string_view shape : unit.shapes) {
+    const auto channel = fap::find_arkit(shape);
+    if (!channel) continue;
+    use(std::size_t(*channel));
+    if (const auto other = fap::arkit_other_side(*channel)) use(std::size_t(*other));
+  }
 }
 
-void add_weight(fap::ArkitFrame& frame, std::string_view shape, double value) {
-  if (shape.empty()) return;
-  if (const auto channel = fap::find_arkit(shape)) {
-    double& weight = frame[std::size_t(*channel)];
-    weight = *channel < fap::kArkitShapeCount ? std::clamp(weight + value, 0.0, 1.0) : value;
+// The same with those of an angle.
+template <class Use>
+void for_channels(const UnitAngle& angle, Use use) {
+  for (const std::string_view name : angle.channels) {
+    if (const auto channel = fap::find_arkit(name)) use(std::size_t(*channel));
   }
 }
 
@@ -200,25 +205,11 @@ Result<ShapeTable> action_units_to_shapes(std::string_view text) {
   const Row header(lines[0], separator);
   const UnitColumns columns = unit_columns(header);
   const double full = strongest(lines, separator, columns);
-  std::array<bool, fap::kArkitChannelCount> used{};
-  const auto use = [&](std::string_view shape) {
-    if (const auto channel = fap::find_arkit(shape)) used[std::size_t(*channel)] = true;
-  };
-  for (const UnitColumns::Used& one : columns.units) {
-    for (const std::string_view shape : one.unit->shapes) {
-      if (shape.empty()) continue;
-      use(shape);
-      use(pair_of(shape));
-    }
-  }
-  for (const auto& [field, angle] : columns.angles) {
-    for (const std::string_view channel : angle->channels) use(channel);
-  }
-  ShapeTable out;
-  out.table = columns.time ? "time_s" : columns.has_frame ? "frame" : "row";
-  for (std::size_t c = 0; c < used.size(); ++c) {
-    if (used[c]) out.table += "," + std::string(fap::kArkitNames[c]);
-  }
+  fap::ArkitChannels used;
+  const auto use = [&](std::size_t channel) { used.set(channel); };
+  for (const UnitColumns::Used& one : columns.units) for_channels(*one.unit, use);
+  for (const auto& [field, angle] : columns.angles) for_channels(*angle, use);
+  ShapeTableWriter table(columns.time ? "time_s" : columns.has_frame ? "frame" : "row", used);
   std::size_t lost = 0;
   for (std::size_t i = 1; i < lines.size(); ++i) {
     const Row row(lines[i], separator);
@@ -235,29 +226,20 @@ Result<ShapeTable> action_units_to_shapes(std::string_view text) {
                          "not a finite number; correct it or remove the line");
       }
       const double weight = *value / (one.kind == 'c' ? 1 : full) * one.unit->share;
-      for (const std::string_view shape : one.unit->shapes) {
-        add_weight(frame, shape, weight);
-        add_weight(frame, pair_of(shape), weight);
-      }
+      for_channels(*one.unit, [&](std::size_t channel) {
+        frame[channel] = std::clamp(frame[channel] + weight, 0.0, 1.0);
+      });
     }
     for (const auto& [field, angle] : columns.angles) {
-      const double value = row.number(field).value_or(0);
-      for (const std::string_view channel : angle->channels) {
-        add_weight(frame, channel, std::isfinite(value) ? angle->sign * value : 0);
-      }
+      const double value = angle->sign * row.number(field).value_or(0);
+      for_channels(*angle, [&](std::size_t channel) { frame[channel] = value; });
     }
-    out.table += "\n";
-    out.table += columns.time        ? std::string(row.text(*columns.time))
-                 : columns.has_frame ? std::string(row.text(columns.frame))
-                                     : std::to_string(i - 1);
-    for (std::size_t c = 0; c < used.size(); ++c) {
-      if (!used[c]) continue;
-      char number[40];
-      std::snprintf(number, sizeof number, ",%.6g", frame[c]);
-      out.table += number;
-    }
+    table.add(columns.time        ? std::string(row.text(*columns.time))
+              : columns.has_frame ? std::string(row.text(columns.frame))
+                                  : std::to_string(i - 1),
+              frame);
   }
-  out.table += "\n";
+  ShapeTable out{table.take(), {}};
   out.warnings.push_back("these are " + std::to_string(columns.units.size()) +
                          " action units without points of the face, which say less of the lips; "
                          "OpenFace writes the points with FeatureExtraction -2Dfp -3Dfp");

@@ -1,22 +1,15 @@
 // Tables of action units (FACS), as OpenFace, LibreFace and Py-Feat write them.
 #pragma once
 
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "fap/result.h"
+#include "tools/formats/exchange/detail/shape_table.h"
 
 namespace animeme::exchange {
 
 /// Whether a header line names at least three action units with an intensity ("AU12_r", "AU12").
 bool is_action_unit_table(std::string_view header);
-
-/// A table of action units as one of ARKit's shapes.
-struct ShapeTable {
-  std::string table;                  ///< for read_arkit_table()
-  std::vector<std::string> warnings;  ///< what was dropped or assumed
-};
 
 /// An action unit moves the shapes that ICT-FaceKit lists for it, both sides alike (FaceKit's
 /// FACS table, MIT); AU 25 and 26, which it lacks, lips that part and a jaw that drops. Intensities

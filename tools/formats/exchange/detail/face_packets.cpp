@@ -39,16 +39,6 @@ std::optional<PacketField> packet_field(std::string_view text) {
                      false};
 }
 
-std::vector<std::string_view> packet_parts(std::string_view text, char separator) {
-  std::vector<std::string_view> parts;
-  for (;;) {
-    const std::size_t end = text.find(separator);
-    parts.push_back(text.substr(0, end));
-    if (end == std::string_view::npos) return parts;
-    text.remove_prefix(end + 1);
-  }
-}
-
 std::optional<int> packet_shape(const PacketField& field) {
   if (field.angles) return std::nullopt;
   const std::optional<int> channel = fap::find_arkit(field.name);
@@ -115,7 +105,7 @@ class PacketReader {
     const std::optional<double> time = take_time(packet.text);
     row.time = time.value_or(0);
     bool any = false;
-    for (const std::string_view part : packet_parts(packet.text, '|')) {
+    for (const std::string_view part : dam::split_fields(packet.text, '|')) {
       const std::optional<PacketField> field = packet_field(part);
       if (!field) continue;
       if (field->angles) {
@@ -156,7 +146,7 @@ class PacketReader {
       ignored_.insert(name.substr(0, 60));
       return {};
     }
-    const std::vector<std::string_view> numbers = packet_parts(field.value, ',');
+    const std::vector<std::string_view> numbers = dam::split_fields(field.value, ',');
     if (numbers.size() < 3) return wrong(field, line);
     std::array<double, 3> xyz{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -178,30 +168,10 @@ class PacketReader {
   }
 
   ShapeTable table() {
-    ShapeTable out;
-    const bool times = timed_ > 0;
-    if (times) out.table = "time_s";
-    for (std::size_t c = 0; c < fap::kArkitNames.size(); ++c) {
-      if (!channels_[c]) continue;
-      if (!out.table.empty()) out.table += ',';
-      out.table += fap::kArkitNames[c];
-    }
-    for (const PacketRow& row : rows_) {
-      out.table += '\n';
-      bool first = true;
-      const auto put = [&](const char* format, double value) {
-        std::array<char, 48> number{};
-        std::snprintf(number.data(), number.size(), format, value);
-        if (!first) out.table += ',';
-        first = false;
-        out.table += number.data();
-      };
-      if (times) put("%.6f", row.time - rows_.front().time);
-      for (std::size_t c = 0; c < fap::kArkitNames.size(); ++c) {
-        if (channels_[c]) put("%.6g", row.values[c]);
-      }
-    }
-    out.table += '\n';
+    ShapeTableWriter table(timed_ > 0 ? "time_s" : "", channels_);
+    for (const PacketRow& row : rows_)
+      table.add(cell_of(row.time - rows_.front().time), row.values);
+    ShapeTable out{table.take(), {}};
     if (!ignored_.empty()) {
       std::string names;
       for (const std::string& name : ignored_) names += (names.empty() ? "" : ", ") + name;
@@ -225,7 +195,7 @@ bool is_face_packets(std::string_view text) {
   if (packets.empty()) return false;
   std::string_view first = packets.front().text;
   take_time(first);
-  const std::vector<std::string_view> parts = packet_parts(first, '|');
+  const std::vector<std::string_view> parts = dam::split_fields(first, '|');
   if (parts.size() < 3) return false;
   return std::count_if(parts.begin(), parts.end(), [](std::string_view part) {
            const std::optional<PacketField> field = packet_field(part);

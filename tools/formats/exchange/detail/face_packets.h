@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "fap/result.h"
-#include "tools/formats/exchange/detail/action_units.h"
+#include "tools/formats/exchange/detail/shape_table.h"
 
 namespace animeme::exchange {
 

@@ -21,19 +21,6 @@ constexpr double kAzureRate = 60;      // frames a second: Azure's documentation
 constexpr std::size_t kAzureRow = 55;  // ARKit's shapes, then three turns
 constexpr std::size_t kLookAt = 65536;
 
-// The order of Azure Speech ("Get facial position with viseme").
-constexpr std::string_view kAzure =
-    "eyeBlinkLeft eyeLookDownLeft eyeLookInLeft eyeLookOutLeft eyeLookUpLeft eyeSquintLeft "
-    "eyeWideLeft eyeBlinkRight eyeLookDownRight eyeLookInRight eyeLookOutRight eyeLookUpRight "
-    "eyeSquintRight eyeWideRight jawForward jawLeft jawRight jawOpen mouthClose mouthFunnel "
-    "mouthPucker mouthLeft mouthRight mouthSmileLeft mouthSmileRight mouthFrownLeft "
-    "mouthFrownRight mouthDimpleLeft mouthDimpleRight mouthStretchLeft mouthStretchRight "
-    "mouthRollLower mouthRollUpper mouthShrugLower mouthShrugUpper mouthPressLeft "
-    "mouthPressRight mouthLowerDownLeft mouthLowerDownRight mouthUpperUpLeft mouthUpperUpRight "
-    "browDownLeft browDownRight browInnerUp browOuterUpLeft browOuterUpRight cheekPuff "
-    "cheekSquintLeft cheekSquintRight noseSneerLeft noseSneerRight tongueOut headRoll "
-    "leftEyeRoll rightEyeRoll";
-
 std::string plain_key(std::string_view name) {
   std::string out = lower_case(name);
   std::erase_if(out, [](char c) { return c == '_' || c == '-' || c == ' '; });
@@ -369,13 +356,15 @@ bool read_alone(const Json& json, Curves& curves) {
   return true;
 }
 
+// The order of Azure Speech ("Get facial position with viseme"): ARKit's, but left before right
+// where ARKit has both ways of the jaw and of the mouth, and three turns.
 NameList azure_names() {
-  NameList names;
-  std::string_view rest = kAzure;
-  while (!rest.empty()) {
-    names.emplace_back(rest.substr(0, rest.find(' ')));
-    rest.remove_prefix(std::min(names.back().size() + 1, rest.size()));
+  NameList names(fap::kArkitNames.begin(), fap::kArkitNames.begin() + fap::kArkitShapeCount);
+  for (const char* left : {"jawLeft", "mouthLeft"}) {
+    const auto at = std::find(names.begin(), names.end(), left);
+    std::iter_swap(at, at - 1);
   }
+  names.insert(names.end(), {"headRoll", "leftEyeRoll", "rightEyeRoll"});
   return names;
 }
 
@@ -413,29 +402,17 @@ bool read_azure(const Json& json, Curves& curves, int depth = 0) {
   return any;
 }
 
-std::string cell_of(double value) {
-  if (!std::isfinite(value)) return "0";
-  char text[40];
-  std::snprintf(text, sizeof text, "%.9g", value);
-  return text;
-}
-
-JsonCurves curves_table(const Curves& curves) {
+ShapeTable curves_table(const Curves& curves) {
   const auto all = [&](auto holds) {
     return std::all_of(curves.frames.begin(), curves.frames.end(), holds);
   };
   const bool times = all([](const CurveFrame& frame) { return frame.seconds.has_value(); });
   const bool numbers = all([](const CurveFrame& frame) { return frame.number.has_value(); });
-  std::array<bool, fap::kArkitChannelCount> used{};
+  fap::ArkitChannels used;
   for (const CurveFrame& frame : curves.frames) {
-    for (const auto& [channel, value] : frame.values) used[std::size_t(channel)] = true;
+    for (const auto& [channel, value] : frame.values) used.set(std::size_t(channel));
   }
-  JsonCurves out;
-  const bool seconds = times || curves.rate;
-  out.table = seconds ? "time_s" : numbers ? "frame" : "row";
-  for (std::size_t c = 0; c < used.size(); ++c) {
-    if (used[c]) out.table += "," + std::string(fap::kArkitNames[c]);
-  }
+  ShapeTableWriter table(times || curves.rate ? "time_s" : numbers ? "frame" : "row", used);
   std::size_t lost = 0;
   for (std::size_t i = 0; i < curves.frames.size(); ++i) {
     const CurveFrame& frame = curves.frames[i];
@@ -443,15 +420,12 @@ JsonCurves curves_table(const Curves& curves) {
       ++lost;
       continue;
     }
+    fap::ArkitFrame values{};
+    for (const auto& [channel, value] : frame.values) values[std::size_t(channel)] = value;
     const double at = numbers ? *frame.number : double(i);
-    out.table += "\n" + cell_of(times ? *frame.seconds : curves.rate ? at / *curves.rate : at);
-    for (std::size_t c = 0; c < used.size(); ++c) {
-      if (!used[c]) continue;
-      const auto value = frame.values.find(int(c));
-      out.table += "," + cell_of(value == frame.values.end() ? 0 : value->second);
-    }
+    table.add(cell_of(times ? *frame.seconds : curves.rate ? at / *curves.rate : at), values);
   }
-  out.table += "\n";
+  ShapeTable out{table.take(), {}};
   if (lost > 0) out.warnings.push_back("frames without a face, skipped: " + std::to_string(lost));
   if (!curves.unknown.empty()) {
     out.warnings.push_back("shapes that are not ARKit's are ignored: " +
@@ -478,7 +452,7 @@ bool find_any(const Json& root, Curves& curves) {
 
 }  // namespace
 
-std::optional<JsonCurves> find_json_curves(const Json& root) {
+std::optional<ShapeTable> find_json_curves(const Json& root) {
   Curves curves;
   curves.rate = find_rate(root);
   if (!find_any(root, curves)) return std::nullopt;

@@ -1,22 +1,13 @@
 // Curves of ARKit shapes in JSON of any structure.
 #pragma once
 
-#include <cstddef>
 #include <optional>
-#include <string>
 #include <string_view>
-#include <vector>
 
-#include "fap/result.h"
 #include "tools/formats/common/json.h"
+#include "tools/formats/exchange/detail/shape_table.h"
 
 namespace animeme::exchange {
-
-/// Curves as a table for read_arkit_table().
-struct JsonCurves {
-  std::string table;                  ///< with a header line
-  std::vector<std::string> warnings;  ///< what was left out or assumed
-};
 
 /// Finds names, frames and rate by their shape, not by the names of members:
 ///
@@ -33,7 +24,7 @@ struct JsonCurves {
 /// or timestamp_ms, time_ms. With neither, the table has no times, and its reader wants a rate.
 ///
 /// nullopt: there are no such curves.
-std::optional<JsonCurves> find_json_curves(const tools::Json& root);
+std::optional<ShapeTable> find_json_curves(const tools::Json& root);
 
 /// Whether the beginning of a text is JSON that has two names of ARKit's shapes, or Azure's
 /// BlendShapes: it may be cut off.

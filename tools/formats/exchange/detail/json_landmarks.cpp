@@ -234,7 +234,7 @@ Result<JsonTable> json_to_table(std::string_view text, bool shapes) {
   if (width && height && *width > 0 && *height > 0) out.size = PictureSize{*width, *height};
   const bool points = std::any_of(frames.begin(), frames.end(),
                                   [](const Frame& frame) { return frame.points != nullptr; });
-  std::optional<JsonCurves> curves;
+  std::optional<ShapeTable> curves;
   if (shapes || !points) curves = find_json_curves(*root);
   // Members for faces, all of them empty.
   const auto asks = [](const Json& one) {
