@@ -2,7 +2,10 @@
 // recordings, whose truth is the alignment of their text and the face that it makes.
 #pragma once
 
+#include <cstdio>
+#include <cstdlib>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "dam/corpus/corpus.h"
@@ -11,6 +14,16 @@
 #include "tools/formats/media/pcm.h"
 
 namespace animeme::bench {
+
+constexpr double kNear = 0.060;  // seconds: a closure counts for a phone so far away
+
+/// The value, or the end of the program with the error.
+template <class T>
+T need(Result<T> result) {
+  if (result) return std::move(*result);
+  std::fprintf(stderr, "%s\n", result.error().describe().c_str());
+  std::exit(3);
+}
 
 struct Voice {
   dam::Utterance sentence;  // text, phones, and the motion to compare with

@@ -23,18 +23,12 @@
 namespace {
 
 using namespace animeme;  // NOLINT: a program
+using bench::kNear;
+using bench::need;
 using bench::Voice;
 using bench::Voices;
 
 constexpr double kRate = 16000;
-constexpr double kNear = 0.060;  // seconds: a closure counts for a phone so far away
-
-template <class T>
-T need(Result<T> result) {
-  if (result) return std::move(*result);
-  std::fprintf(stderr, "strangers_table: %s\n", result.error().describe().c_str());
-  std::exit(3);
-}
 
 // A recording as somebody else would have made it; `lead` seconds of it are before the original.
 struct Heard {

@@ -40,7 +40,7 @@ std::vector<std::uint8_t> file_with(const Names& left, const Names& right, Vec3 
   const int box = mesh("body", {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 1, 2, 0, 2, 3, 0, 3, 1});
   json roots = {face};
   for (const auto& [names, side] : {std::pair(left, 1.0f), {right, -1.0f}}) {
-    const auto at = [&](float scale) {
+    const auto at = [&, side = side](float scale) {
       return json{side * along.x * scale, along.y * scale, along.z * scale};
     };
     const int hand =

@@ -4,8 +4,7 @@
 
 #include "fap/arkit.h"
 #include "fap/head/rig.h"
-#include "tests/support/gltf_writer.h"
-#include "tests/view/gltf/actor.h"
+#include "tests/view/gltf/actor_file.h"
 #include "tools/view/gltf/read_head.h"
 #include "tools/view/gltf/shape_names.h"
 
@@ -43,12 +42,6 @@ struct FileOptions {
   bool vrm0 = false;  // looks along -Z
 };
 
-std::vector<float> floats(const std::vector<Vec3>& values) {
-  std::vector<float> out;
-  for (const Vec3& v : values) out.insert(out.end(), {v.x, v.y, v.z});
-  return out;
-}
-
 fap::Frame face(std::string_view shape, double weight = 1) {
   fap::ArkitFrame weights{};
   weights[std::size_t(fap::find_arkit(shape).value_or(0))] = weight;
@@ -57,31 +50,17 @@ fap::Frame face(std::string_view shape, double weight = 1) {
 
 std::vector<std::uint8_t> woman_file(const std::vector<Target>& targets,
                                      const FileOptions& options = {}) {
-  const head::Rig& rig = actor().rig;
+  std::vector<NamedPose> poses;
+  for (const Target& target : targets) {
+    poses.push_back({target.name, face(target.shape, target.full)});
+  }
   GltfWriter file;
   json nodes = json::array();
   for (const Part part : {Part::skin, Part::left_eye, Part::right_eye}) {
-    const head::Rig::Shape& shape = rig.parts[std::size_t(part)];
-    std::vector<std::uint32_t> corners;
-    for (const head::Triangle& t : shape.triangles)
-      corners.insert(corners.end(), t.begin(), t.end());
     const bool skin = part == Part::skin;
     const std::string name(head::kPartNames[std::size_t(part)]);
     const int material = file.add("materials", {{"name", skin ? options.material : name}});
-    json primitive = {
-        {"attributes", {{"POSITION", file.accessor(floats(shape.positions), "VEC3")}}},
-        {"indices", file.accessor(corners, "SCALAR")},
-        {"material", material}};
-    json mesh = {{"name", skin ? options.mesh : name}};
-    for (const Target& target : targets) {
-      if (!skin) break;
-      std::vector<Vec3> moves = head::pose(rig, face(target.shape, target.full)).positions[0];
-      for (std::size_t v = 0; v < moves.size(); ++v) moves[v] -= shape.positions[v];
-      primitive["targets"].push_back({{"POSITION", file.accessor(floats(moves), "VEC3")}});
-      mesh["extras"]["targetNames"].push_back(target.name);
-    }
-    mesh["primitives"] = json::array({primitive});
-    nodes.push_back(file.add("nodes", {{"mesh", file.add("meshes", mesh)}}));
+    nodes.push_back(add_actor_part(file, part, skin ? options.mesh : name, poses, material));
   }
   json root = {{"name", "root"}, {"children", nodes}};
   if (options.mirrored) root["scale"] = {-1, 1, 1};

@@ -8,8 +8,7 @@
 #include "fap/head/rig.h"
 #include "fap/head/shapes.h"
 #include "fap/tables.h"
-#include "tests/support/gltf_writer.h"
-#include "tests/view/gltf/actor.h"
+#include "tests/view/gltf/actor_file.h"
 #include "tools/view/gltf/read_head.h"
 
 namespace animeme::gltf {
@@ -19,11 +18,6 @@ using head::Part;
 using head::Vec3;
 using nlohmann::json;
 using test::GltfWriter;
-
-struct NamedPose {
-  std::string name;
-  fap::Frame frame;
-};
 
 std::string morph_name(int viseme) { return std::string(fap::kVisemes[std::size_t(viseme)].morph); }
 
@@ -47,35 +41,13 @@ std::vector<NamedPose> visemes_and_blink() {
   return poses;
 }
 
-std::vector<float> floats(const std::vector<Vec3>& values) {
-  std::vector<float> out;
-  for (const Vec3& v : values) out.insert(out.end(), {v.x, v.y, v.z});
-  return out;
-}
-
 // The woman with shapes that are poses of hers.
 head::Head woman_with(const std::vector<NamedPose>& poses) {
-  const head::Rig& rig = actor().rig;
   GltfWriter file;
   json nodes = json::array();
   for (const Part part : {Part::skin, Part::left_eye, Part::right_eye}) {
-    const head::Rig::Shape& shape = rig.parts[std::size_t(part)];
-    std::vector<std::uint32_t> corners;
-    for (const head::Triangle& t : shape.triangles)
-      corners.insert(corners.end(), t.begin(), t.end());
-    json primitive = {
-        {"attributes", {{"POSITION", file.accessor(floats(shape.positions), "VEC3")}}},
-        {"indices", file.accessor(corners, "SCALAR")}};
-    json mesh = {{"name", head::kPartNames[std::size_t(part)]}};
-    for (const auto& [name, frame] : poses) {
-      if (part != Part::skin) break;
-      std::vector<Vec3> moves = head::pose(rig, frame).positions[0];
-      for (std::size_t v = 0; v < moves.size(); ++v) moves[v] -= shape.positions[v];
-      primitive["targets"].push_back({{"POSITION", file.accessor(floats(moves), "VEC3")}});
-      mesh["extras"]["targetNames"].push_back(name);
-    }
-    mesh["primitives"] = nlohmann::json::array({primitive});
-    nodes.push_back(file.add("nodes", {{"mesh", file.add("meshes", mesh)}}));
+    nodes.push_back(
+        add_actor_part(file, part, std::string(head::kPartNames[std::size_t(part)]), poses));
   }
   file.add("scenes", {{"nodes", nodes}});
   auto source = read_head(file.glb());

@@ -25,6 +25,7 @@ using fap::detail::lower_case;
 using head::Vec3;
 
 constexpr std::size_t kMostFiles = 4096;  // of a folder; what has more is no head
+constexpr std::size_t kMostListed = 60;   // in a note or an error
 
 struct ObjPath {
   std::string name;  // "jawOpen"
@@ -85,14 +86,10 @@ int resting(const std::string& name) {
   return 0;
 }
 
-std::string names_of(const std::vector<ObjPath>& files) {
-  constexpr std::size_t kMost = 60;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(files.size(), kMost); ++i) {
-    text += (i == 0 ? "" : ", ") + files[i].name.substr(0, 60);
-  }
-  if (files.size() > kMost) text += " and " + std::to_string(files.size() - kMost) + " more";
-  return text;
+std::vector<std::string> names_of(const std::vector<ObjPath>& files) {
+  std::vector<std::string> names;
+  for (const ObjPath& file : files) names.push_back(file.name);
+  return names;
 }
 
 Result<ObjPath> take_resting(std::vector<ObjPath>& files, const ShapeRules& rules) {
@@ -110,7 +107,7 @@ Result<ObjPath> take_resting(std::vector<ObjPath>& files, const ShapeRules& rule
     return make_error(Code::not_found,
                       "none of its files is the head at rest: call it neutral.obj "
                       "(there are: " +
-                          names_of(files) + ")");
+                          list_of(names_of(files), kMostListed) + ")");
   }
   ObjPath found = std::move(*best);
   files.erase(best);
@@ -165,9 +162,7 @@ class FolderReader {
   Result<HeadFile> read(const std::string& folder) {
     auto files = files_in(folder);
     if (!files) return files.error();
-    std::vector<std::string> names;
-    for (const ObjPath& file : *files) names.push_back(file.name);
-    if (auto known = check_rules(options_.rules, names); !known) return known.error();
+    if (auto known = check_rules(options_.rules, names_of(*files)); !known) return known.error();
     const auto rest = take_resting(*files, options_.rules);
     if (!rest) return rest.error();
     if (auto read = read_rest(*rest); !read) return read.error();
@@ -356,10 +351,7 @@ class FolderReader {
   }
 
   static void add_note(HeadFile& head, const char* what, const std::vector<std::string>& names) {
-    if (names.empty()) return;
-    std::vector<ObjPath> files;
-    for (const std::string& name : names) files.push_back({name, ""});
-    head.source.notes.push_back(what + names_of(files));
+    if (!names.empty()) head.source.notes.push_back(what + list_of(names, kMostListed));
   }
 
   ReadOptions options_;

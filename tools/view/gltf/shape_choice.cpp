@@ -5,12 +5,15 @@
 
 #include "fap/arkit.h"
 #include "fap/shape_fit.h"
+#include "tools/view/gltf/detail/words.h"
 #include "tools/view/gltf/shape_names.h"
 
 namespace animeme::gltf {
 namespace {
 
 constexpr std::size_t kMouthShapes = 6;  // of ARKit's, with a jaw: they make a mouth
+
+constexpr std::size_t kMostNamed = 12;  // in a note
 
 // The convention of names that have a rule: those of the user.
 constexpr std::string_view kGiven = "given";
@@ -67,15 +70,6 @@ bool has_arkit_mouth(const std::vector<ChosenShape>& shapes) {
     jaw = jaw || name == "jawOpen";
   }
   return jaw && mouth >= int(kMouthShapes);
-}
-
-std::string list_of(const std::vector<std::string>& names, std::size_t most = 12) {
-  std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), most); ++i) {
-    text += (i == 0 ? "" : ", ") + names[i].substr(0, 60);
-  }
-  if (names.size() > most) text += " and " + std::to_string(names.size() - most) + " more";
-  return text;
 }
 
 using MeaningKey = std::tuple<int, int, std::vector<ArkitPart>>;
@@ -254,10 +248,12 @@ std::vector<ChosenShape> choose_shapes(const std::vector<std::string>& names, Mo
   // Silence is what is left when nothing else is shown.
   std::erase_if(shapes, [](const ChosenShape& shape) { return shape.meaning.viseme == 0; });
   if (!unused.empty()) {
-    notes.push_back("shapes that are not needed besides the others: " + list_of(unused));
+    notes.push_back("shapes that are not needed besides the others: " +
+                    list_of(unused, kMostNamed));
   }
   if (!unknown.empty()) {
-    notes.push_back("shapes with unknown names, which stay at rest: " + list_of(unknown));
+    notes.push_back("shapes with unknown names, which stay at rest: " +
+                    list_of(unknown, kMostNamed));
   }
   return shapes;
 }

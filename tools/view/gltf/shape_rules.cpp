@@ -4,6 +4,7 @@
 
 #include "fap/detail/text_scanner.h"
 #include "tools/formats/files/files.h"
+#include "tools/view/gltf/detail/words.h"
 #include "tools/view/gltf/shape_names.h"
 
 namespace animeme::gltf {
@@ -102,13 +103,9 @@ Result<void> check_rules(const ShapeRules& rules, const std::vector<std::string>
       return find_rule({rule}, name) != nullptr;
     });
     if (found) continue;
-    std::string list;
-    for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i) {
-      list += (i == 0 ? "" : ", ") + names[i].substr(0, 60);
-    }
-    if (names.size() > kMost) list += " and " + std::to_string(names.size() - kMost) + " more";
     return make_error(Code::not_found, "no morph target is called \"" + rule.name + "\"; " +
-                                           (list.empty() ? "there is none" : "there are: " + list));
+                                           (names.empty() ? "there is none"
+                                                          : "there are: " + list_of(names, kMost)));
   }
   return {};
 }

@@ -1,6 +1,7 @@
 // Names of bones and shapes as words: "mixamorig:LeftEye", "eye.L", "J_Adj_L_FaceEye".
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,9 @@ std::vector<std::string> words_of(std::string_view name);
 
 /// Words from `first` on, without spaces.
 std::string joined(const std::vector<std::string>& words, std::size_t first = 0);
+
+/// "A, B, C and 9 more": at most `most` names, each cut at 60 bytes.
+std::string list_of(const std::vector<std::string>& names, std::size_t most);
 
 bool has_word(const std::vector<std::string>& words, std::string_view word);
 
