@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 
 #include "dam/script/phones.h"
@@ -10,6 +11,8 @@
 #include "fap/text.h"
 #include "tests/app/program/commands.h"
 #include "tests/support/shared.h"
+#include "tests/support/wav_bytes.h"
+#include "tools/formats/media/audio.h"
 
 namespace animeme {
 namespace speak_test {
@@ -348,6 +351,59 @@ TEST(Speak, RecordedUtteranceGoesTheSameWay) {
   const auto aligned = animeme({"speak", "--audio", (corpus / "audio" / (id + ".wav")).string(),
                                 "--transcript", "bin blue at l eight please", "-o", dir / "b.mp4"});
   EXPECT_EQ(aligned.exit_code, 0) << aligned.err;
+}
+
+// What is listened to is one channel; what is written is the recording, with both and at its level.
+TEST(Speak, AStereoRecordingStaysStereo) {
+  const TempDir dir;
+  std::vector<float> left, right;
+  for (std::size_t i = 0; i < 3 * 16000; ++i) {
+    left.push_back(0.005f * std::sin(0.2f * float(i)));
+    right.push_back(i % 4000 < 80 ? 0.002f : 0.0f);
+  }
+  test::write_bytes(dir / "voice.wav", test::wav_bytes(16000, {left, right}));
+  const auto script = test::data_dir() / "grid_s1_sample" / "phonemes" / "bbbf9a.tsv";
+  const auto channels = [](const std::string& path) {
+    const test::Json info = test::json_of({"info", path});
+    for (const auto& track : info["tracks"]) {
+      if (track["kind"] == "audio") return track["channels"].get<int>();
+    }
+    return 0;
+  };
+  const auto left_power = [](const std::string& path) {
+    auto reader = media::AudioReader::open(path, {.most_channels = 2});
+    EXPECT_TRUE(reader) << reader.error().describe();
+    double sum = 0;
+    while (reader) {
+      const auto block = reader->next();
+      if (!block || block->empty()) break;
+      for (std::size_t i = 0; i < block->size(); i += 2) sum += double((*block)[i] * (*block)[i]);
+    }
+    return sum;
+  };
+  const double power = left_power(dir / "voice.wav");
+  test::succeeds({"speak", "--script", script.string(), "--audio", dir / "voice.wav", "-o",
+                  dir / "a.mp4", "-o", dir / "b.mkv"});
+  test::succeeds({"mux", dir / "a.mp4", dir / "voice.wav", "-o", dir / "c.mp4", "--preview",
+                  dir / "film.mp4"});
+  for (const char* name : {"a.mp4", "b.mkv", "c.mp4", "film.mp4"}) {
+    EXPECT_EQ(channels(dir / name), 2) << name;
+    EXPECT_NEAR(left_power(dir / name) / power, 1, 0.2) << name;
+  }
+  // Coded sound can stay as it is.
+  test::succeeds({"speak", "--script", script.string(), "--audio", dir / "a.mp4", "--audio-codec",
+                  "copy", "-o", dir / "d.mp4"});
+  EXPECT_EQ(channels(dir / "d.mp4"), 2);
+  test::succeeds({"demux", dir / "a.mp4", "--audio", dir / "a.m4a"});
+  test::succeeds({"demux", dir / "d.mp4", "--audio", dir / "d.m4a"});
+  EXPECT_EQ(test::slurp(dir / "a.m4a"), test::slurp(dir / "d.m4a"));
+  const auto plain = animeme({"speak", "--script", script.string(), "--audio", dir / "voice.wav",
+                              "--audio-codec", "copy", "-o", dir / "e.mp4"});
+  EXPECT_EQ(plain.exit_code, 3);
+  EXPECT_THAT(plain.err, HasSubstr("the sound is pcm_s16le"));
+  const auto made = animeme({"speak", "Hello", "--audio-codec", "copy", "-o", dir / "e.mp4"});
+  EXPECT_EQ(made.exit_code, 2);
+  EXPECT_THAT(made.err, HasSubstr("--audio-codec copy is for a recorded voice"));
 }
 
 TEST(Speak, ScriptOfTheSampleCorpusWithoutAudio) {

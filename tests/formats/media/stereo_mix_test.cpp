@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdint>
 
+#include "tests/support/wav_bytes.h"
 #include "tools/formats/media/audio.h"
 
 namespace animeme::media {
@@ -65,15 +65,9 @@ TEST(StereoMix, TakesOneOfOppositeChannelsHoweverTheyAreCut) {
 // A file with opposite channels of 16 bit, read as any other.
 TEST(StereoMix, IsUsedForFiles) {
   const auto left = voice(kRate);
-  std::vector<std::uint8_t> file{'R', 'I', 'F', 'F', 0,   0,   0,   0,
-                                 'W', 'A', 'V', 'E', 'f', 'm', 't', ' '};
-  const auto put = [&](std::uint32_t value, int bytes) {
-    for (int i = 0; i < bytes; ++i) file.push_back(std::uint8_t(value >> (8 * i)));
-  };
-  put(16, 4), put(1, 2), put(2, 2), put(kRate, 4), put(4 * kRate, 4), put(4, 2), put(16, 2);
-  for (const char c : {'d', 'a', 't', 'a'}) file.push_back(std::uint8_t(c));
-  put(std::uint32_t(4 * left.size()), 4);
-  for (const float one : pairs(left, -1)) put(std::uint32_t(std::lround(one * 32767)), 2);
+  std::vector<float> right;
+  for (const float one : left) right.push_back(-one);
+  const test::Bytes file = test::wav_bytes(kRate, {left, right});
   for (const int rate : {0, 8000}) {
     const auto pcm = read_audio(file, {.sample_rate = rate});
     ASSERT_TRUE(pcm) << pcm.error().describe();

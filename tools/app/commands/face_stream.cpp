@@ -70,7 +70,7 @@ void add_sound_options(OptionTable& cli, SoundSettings& settings, bool copy) {
       ->value("CODEC")
       ->one_of(copy ? "aac opus copy" : "aac opus");
   cli.add("--audio-bitrate", settings.bit_rate,
-          "Bits per second of the sound; default: 64000 for aac, 40000 for opus")
+          "Bits per second of the sound; default, for each channel: 64000 for aac, 40000 for opus")
       ->value("6000..320000")
       ->between(6000, 320000);
 }

@@ -1,6 +1,7 @@
 #include "tools/formats/media/mux.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/face_stream.h"
@@ -67,7 +68,8 @@ Result<fba::AccessUnits> read_units(const MuxOptions& options) {
   return access_units(*face, options.stream);
 }
 
-// Samples only where they are needed twice: a file is decoded while it is written.
+// Samples only of what is needed twice and cannot be read twice, a pipe: a file is decoded while it
+// is written, with both of its channels.
 Result<speech::SoundInput> sound_of(const MuxOptions& options) {
   speech::SoundInput sound;
   if (options.audio.empty()) return sound;
@@ -77,7 +79,9 @@ Result<speech::SoundInput> sound_of(const MuxOptions& options) {
     sound.coded = std::move(*coded);
     return sound;
   }
-  if (options.preview.empty()) return sound;
+  std::error_code status;
+  const bool file = std::filesystem::is_regular_file(options.audio, status);
+  if (options.preview.empty() || file) return sound;
   Result<media::Pcm> samples = speech::read_voice(options.audio, terminal_log());
   if (!samples) return samples.error();
   sound.samples = std::move(*samples);

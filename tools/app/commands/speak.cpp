@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <memory>
 #include <optional>
 
 #include "codec/encode/encode.h"
@@ -21,6 +22,7 @@
 #include "tools/formats/exchange/arkit.h"
 #include "tools/formats/exchange/curves.h"
 #include "tools/formats/files/cost.h"
+#include "tools/formats/media/container.h"
 #include "tools/speech/talking/marks.h"
 
 namespace animeme::tools {
@@ -49,6 +51,7 @@ struct SpeakOptions {
   std::uint64_t seed = 1;
   std::optional<double> least;  // confidence
   bool json = false;
+  std::shared_ptr<const media::EncodedAudio> coded;  // of --audio-codec copy
 };
 
 // A model of another rig can only be written as curves.
@@ -108,6 +111,26 @@ Result<std::vector<std::uint8_t>> coded_clip(const fap::Sequence& clip,
   return stream;
 }
 
+// A recording is written as it is, with both of its channels; what is listened to is one of them.
+void give_sound(const SpeakOptions& options, const speech::Spoken& spoken, media::MuxInput& input) {
+  if (options.coded) {
+    input.encoded = options.coded.get();
+  } else if (!spoken.recording.empty()) {
+    input.audio_file = &spoken.recording;
+  } else if (spoken.audio) {
+    input.audio = &*spoken.audio;
+  }
+}
+
+// The sound of --audio-codec copy.
+Result<void> read_coded(SpeakOptions& options) {
+  if (options.sound.codec != "copy") return {};
+  Result<media::EncodedAudio> coded = media::read_encoded_audio(options.spoken.audio);
+  if (!coded) return coded.error().in_file(options.spoken.audio);
+  options.coded = std::make_shared<media::EncodedAudio>(std::move(*coded));
+  return {};
+}
+
 Result<int> write_result(const SpeakOptions& options, const fap::Sequence& clip,
                          const speech::Spoken& spoken) {
   const std::string extension = extension_of(options.output);
@@ -133,8 +156,7 @@ Result<int> write_result(const SpeakOptions& options, const fap::Sequence& clip,
   }
   Result<fba::AccessUnits> units = access_units({clip, {}}, options.stream);
   if (!units) return units.error();
-  const media::Pcm* audio = spoken.audio ? &*spoken.audio : nullptr;
-  if (audio == nullptr) warn("there is no recorded voice (--audio): the file will be silent");
+  if (!spoken.audio) warn("there is no recorded voice (--audio): the file will be silent");
   media::MuxOptions mux;
   mux.audio = audio_settings(options.sound, options.output);
   mux.text_track = media::TextTrackType::metadata;
@@ -143,7 +165,8 @@ Result<int> write_result(const SpeakOptions& options, const fap::Sequence& clip,
     texts = speech::carried_texts(spoken.script, language_of(options, spoken));
     if (shows_captions(options.output, options.subtitles)) speech::add_captions(texts);
   }
-  const media::MuxInput input{.face = &*units, .audio = audio, .texts = &texts};
+  media::MuxInput input{.face = &*units, .texts = &texts};
+  give_sound(options, spoken, input);
   Result<int> written = write_media(options.output, input, mux);
   if (!written || *written != kOk || options.preview.empty()) return written;
   return write_preview(options.preview, *units, input);
@@ -331,6 +354,9 @@ Result<int> run(SpeakOptions& options) {
   if (const std::string missing = missing_options(options.spoken); !missing.empty()) {
     return usage_error(missing);
   }
+  if (options.sound.codec == "copy" && options.spoken.audio.empty()) {
+    return usage_error("--audio-codec copy is for a recorded voice (--audio)");
+  }
   for (const std::string& output : options.outputs) {
     const std::string extension = extension_of(output);
     if (!options.visemes.empty() && (extension == ".csv" || extension == ".json"))
@@ -341,6 +367,7 @@ Result<int> run(SpeakOptions& options) {
   if (!rate) return rate.error();
   Result<dam::Model> model = speech::read_model(options.model);
   if (!model) return model.error();
+  if (auto done = read_coded(options); !done) return done.error();
   ProgressLine progress("listening");
   speech::SpokenOptions source = options.spoken;
   if (options.least && *options.least == 0) source.least_confidence = 0;
@@ -429,7 +456,7 @@ void add_options(OptionTable& cli, SpeakOptions& options) {
       ->between(0, 1e9);
   add_stream_options(cli, options.stream);
   add_preview_option(cli, options.preview);
-  add_sound_options(cli, options.sound, false);
+  add_sound_options(cli, options.sound, true);
   cli.add("--min-confidence", options.least,
           "Write nothing and fail if a recording is recognised, or a word of its transcript is "
           "found, "

@@ -25,12 +25,15 @@ class SoundCollector {
   Result<void> finish();
   // Of the samples; 0: not known before the first frame.
   int sample_rate() const { return rate_; }
+  int channels() const { return channels_; }
   // Moves what is certain to be sound to `out`.
   void take(std::vector<float>& out);
 
  private:
   std::optional<std::int64_t> stated_end() const;
-  std::int64_t count() const { return given_ + std::int64_t(samples_.size()); }
+  // Samples of each channel.
+  std::int64_t made() const { return std::int64_t(samples_.size()) / channels_; }
+  std::int64_t count() const { return given_ + made(); }
   Result<void> change_format(const SoundFormat& format);
   Result<void> fill_gap(const AVFrame& frame);
   Result<void> check_length() const;
@@ -40,8 +43,9 @@ class SoundCollector {
   const AVStream& stream_;
   const ReadAudioOptions& options_;
   int rate_ = 0;
+  int channels_ = 1;
   std::vector<float> samples_;  // made and not yet taken
-  std::int64_t given_ = 0;      // taken
+  std::int64_t given_ = 0;      // taken, of each channel
   bool finished_ = false;
   std::optional<Resampler> resampler_;
   std::int64_t start_ = AV_NOPTS_VALUE;  // time stamp of sample 0, stream time base
@@ -65,8 +69,12 @@ Result<void> SoundCollector::change_format(const SoundFormat& format) {
     Result<void> finished = resampler_->finish();
     if (!finished) return finished;
   }
-  if (rate_ == 0) rate_ = options_.sample_rate > 0 ? options_.sample_rate : format.sample_rate;
-  Result<Resampler> made = Resampler::open(format, rate_, samples_);
+  if (rate_ == 0) {
+    rate_ = options_.sample_rate > 0 ? options_.sample_rate : format.sample_rate;
+    const int told = std::max(format.channels, stream_.codecpar->ch_layout.nb_channels);
+    channels_ = std::clamp(told, 1, options_.most_channels);
+  }
+  Result<Resampler> made = Resampler::open(format, rate_, samples_, channels_);
   if (!made) return made.error();
   resampler_.emplace(std::move(*made));
   next_ = AV_NOPTS_VALUE;
@@ -151,7 +159,7 @@ Result<void> SoundCollector::finish() {
   finished_ = true;
   if (const auto end = stated_end();
       end && count() > *end && *end >= given_ && count() - *end <= rate_ / kPaddingPerSecond) {
-    samples_.resize(std::size_t(*end - given_));
+    samples_.resize(std::size_t((*end - given_) * channels_));
   }
   if (auto fits = check_length(); !fits) return fits;
   if (count() == 0) return make_error(Code::syntax, "the audio track is empty");
@@ -162,9 +170,8 @@ void SoundCollector::take(std::vector<float>& out) {
   // What lies behind the stated end stays until it is clear whether that is padding.
   const auto end = finished_ ? std::nullopt : stated_end();
   const bool padding = end && count() > *end && count() - *end <= rate_ / kPaddingPerSecond;
-  const std::int64_t sure =
-      padding ? std::max<std::int64_t>(*end - given_, 0) : std::int64_t(samples_.size());
-  const auto border = samples_.begin() + std::ptrdiff_t(sure);
+  const std::int64_t sure = padding ? std::max<std::int64_t>(*end - given_, 0) : made();
+  const auto border = samples_.begin() + std::ptrdiff_t(sure * channels_);
   out.assign(samples_.begin(), border);
   samples_.erase(samples_.begin(), border);
   given_ += sure;
@@ -181,6 +188,9 @@ Result<void> check(const ReadAudioOptions& options) {
   }
   if (!(options.max_seconds > 0)) {
     return make_error(Code::invalid_argument, "the longest duration must be positive");
+  }
+  if (options.most_channels != 1 && options.most_channels != 2) {
+    return make_error(Code::invalid_argument, "sound is read in one or two channels");
   }
   return {};
 }
@@ -306,6 +316,8 @@ Result<AudioReader> AudioReader::open(const std::string& path, const ReadAudioOp
 
 int AudioReader::sample_rate() const { return impl_->sound->sample_rate(); }
 
+int AudioReader::channels() const { return impl_->sound->channels(); }
+
 double AudioReader::told_seconds() const {
   const std::int64_t told = impl_->input->context()->duration;
   return told == AV_NOPTS_VALUE || told < 0 ? 0 : double(told) / AV_TIME_BASE;
@@ -325,7 +337,9 @@ namespace {
 
 template <class Source>
 Result<Pcm> read_all(const Source& source, const ReadAudioOptions& options) {
-  Result<AudioReader> reader = AudioReader::open(source, options);
+  ReadAudioOptions mono = options;
+  mono.most_channels = 1;
+  Result<AudioReader> reader = AudioReader::open(source, mono);
   if (!reader) return reader.error();
   return av::guarded([&]() -> Result<Pcm> {
     Pcm pcm{reader->sample_rate(), {}};

@@ -29,6 +29,9 @@ struct ReadAudioOptions {
   double max_seconds = 3 * 3600.0;
   /// Receives one sentence for each anomaly (damaged packets, early end); nullptr: none.
   std::vector<std::string>* warnings = nullptr;
+  /// AudioReader: 2 leaves sound of two channels as it is, and mixes that of more to two; 1 mixes
+  /// all to one, as read_audio() always does.
+  int most_channels = 1;
 };
 
 /// Reads the best audio track of any file that FFmpeg supports, or of a playlist (see container.h),
@@ -59,10 +62,12 @@ class AudioReader {
   ~AudioReader();
 
   int sample_rate() const;  ///< Hz, of the returned samples
+  int channels() const;     ///< of the returned samples: 1 or 2
   /// Length in seconds as stated by the file, for progress; 0: not stated.
   double told_seconds() const;
-  /// The next samples, one or more, valid until the next call; empty at the end. Errors: those of
-  /// read_audio() that occur after the beginning.
+  /// The next samples, one or more, valid until the next call; empty at the end. Of two channels
+  /// they come in pairs, left and right. Errors: those of read_audio() that occur after the
+  /// beginning.
   Result<std::span<const float>> next();
 
  private:

@@ -11,7 +11,8 @@
 namespace animeme::media {
 namespace {
 
-// The resampler gets blocks of this size, so that nothing depends on how the sound was cut.
+// The resampler gets blocks of this size, so that nothing depends on how the sound was cut. Samples
+// of each channel.
 constexpr std::size_t kEncoderBlock = 256;
 
 constexpr int kMostEffort = 10;
@@ -23,7 +24,10 @@ float legal_sample(float sample) {
   return sample > 1.0f ? 1.0f : sample < -1.0f ? -1.0f : 0.0f;
 }
 
-Result<void> check(int sample_rate, const AudioSettings& settings) {
+Result<void> check(int sample_rate, const AudioSettings& settings, int channels) {
+  if (channels != 1 && channels != 2) {
+    return make_error(Code::invalid_argument, "sound is encoded in one or two channels");
+  }
   if (sample_rate < kLowestRate || sample_rate > kHighestRate) {
     return make_error(Code::invalid_argument, "the sample rate must be 1000 to 384000 Hz");
   }
@@ -48,7 +52,7 @@ const AVCodec* find_encoder(AudioCodec codec) {
 }
 
 Result<av::Codec> open_encoder(const AudioSettings& settings, int sample_rate,
-                               std::int64_t bit_rate) {
+                               std::int64_t bit_rate, int channels) {
   const AudioCodec codec = settings.codec;
   const AVCodec* encoder = find_encoder(codec);
   if (encoder == nullptr) {
@@ -61,7 +65,7 @@ Result<av::Codec> open_encoder(const AudioSettings& settings, int sample_rate,
   context->sample_fmt = codec == AudioCodec::opus ? AV_SAMPLE_FMT_FLT : AV_SAMPLE_FMT_FLTP;
   context->sample_rate = sample_rate;
   context->time_base = {1, sample_rate};
-  av_channel_layout_default(&context->ch_layout, 1);
+  av_channel_layout_default(&context->ch_layout, channels);
   context->bit_rate = bit_rate;
   context->thread_count = 1;
   if (codec == AudioCodec::opus) {
@@ -92,16 +96,17 @@ struct AudioEncoder::Impl {
   av::Frame frame{av_frame_alloc()};
   av::Packet packet{av_packet_alloc()};
   std::optional<Resampler> resampler;
-  std::vector<float> block;    // for the resampler: less than kEncoderBlock samples
+  std::vector<float> block;    // for the resampler: less than kEncoderBlock samples a channel
   std::vector<float> pending;  // for the encoder: less than a frame after each push()
-  std::int64_t sent = 0;       // samples
+  std::int64_t sent = 0;       // samples of each channel
   bool finished = false;
 
   ~Impl() {
     const av::LogCapture log;  // encoders say goodbye
     codec.reset();
   }
-  Result<void> open(int sample_rate, const AudioSettings& settings);
+  Result<void> open(int sample_rate, const AudioSettings& settings, int channels);
+  std::size_t channels() const { return std::size_t(format.channels); }
   Result<void> take(std::span<const float> samples);
   Result<void> resample_block();
   Result<void> encode(bool all, std::vector<AudioPacket>& out);
@@ -109,17 +114,20 @@ struct AudioEncoder::Impl {
   Result<void> receive(std::vector<AudioPacket>& out);
 };
 
-Result<void> AudioEncoder::Impl::open(int sample_rate, const AudioSettings& settings) {
+Result<void> AudioEncoder::Impl::open(int sample_rate, const AudioSettings& settings,
+                                      int channels) {
   if (!frame || !packet) return av::no_memory();
   const int rate = coded_sample_rate(settings.codec, sample_rate);
-  Result<av::Codec> opened = open_encoder(settings, rate, coded_bit_rate(settings, sample_rate));
+  Result<av::Codec> opened =
+      open_encoder(settings, rate, coded_bit_rate(settings, sample_rate, channels), channels);
   if (!opened) return opened.error();
   codec = std::move(*opened);
-  format = {settings.codec, rate, 1, codec->frame_size, codec->initial_padding, {}};
+  format = {settings.codec, rate, channels, codec->frame_size, codec->initial_padding, {}};
   format.config.assign(codec->extradata, codec->extradata + codec->extradata_size);
   if (rate == sample_rate) return {};
+  const std::uint64_t layout = channels == 2 ? AV_CH_LAYOUT_STEREO : AV_CH_LAYOUT_MONO;
   Result<Resampler> made =
-      Resampler::open({sample_rate, AV_SAMPLE_FMT_FLT, 1, AV_CH_LAYOUT_MONO}, rate, pending);
+      Resampler::open({sample_rate, AV_SAMPLE_FMT_FLT, channels, layout}, rate, pending, channels);
   if (!made) return made.error();
   resampler.emplace(std::move(*made));
   return {};
@@ -127,7 +135,7 @@ Result<void> AudioEncoder::Impl::open(int sample_rate, const AudioSettings& sett
 
 Result<void> AudioEncoder::Impl::resample_block() {
   const auto* plane = reinterpret_cast<const std::uint8_t*>(block.data());
-  Result<void> added = resampler->add(&plane, int(block.size()));
+  Result<void> added = resampler->add(&plane, int(block.size() / channels()));
   block.clear();
   return added;
 }
@@ -139,7 +147,7 @@ Result<void> AudioEncoder::Impl::take(std::span<const float> samples) {
   }
   for (const float sample : samples) {
     block.push_back(legal_sample(sample));
-    if (block.size() < kEncoderBlock) continue;
+    if (block.size() < kEncoderBlock * channels()) continue;
     Result<void> done = resample_block();
     if (!done) return done;
   }
@@ -149,15 +157,20 @@ Result<void> AudioEncoder::Impl::take(std::span<const float> samples) {
 int AudioEncoder::Impl::send(std::span<const float> samples) {
   frame->format = codec->sample_fmt;
   frame->sample_rate = codec->sample_rate;
-  frame->nb_samples = int(samples.size());
+  const std::size_t count = samples.size() / channels();
+  frame->nb_samples = int(count);
   frame->pts = sent;
   int status = av_channel_layout_copy(&frame->ch_layout, &codec->ch_layout);
   if (status >= 0) status = av_frame_get_buffer(frame.get(), 0);
   if (status < 0) return status;
-  auto* target = reinterpret_cast<float*>(frame->data[0]);
   // Resampling may overshoot.
-  std::transform(samples.begin(), samples.end(), target, legal_sample);
-  sent += std::int64_t(samples.size());
+  const bool planar = av_sample_fmt_is_planar(codec->sample_fmt) != 0;
+  for (std::size_t i = 0; i < count * channels(); ++i) {
+    const std::size_t plane = planar ? i % channels() : 0;
+    auto* target = reinterpret_cast<float*>(frame->data[plane]);
+    target[planar ? i / channels() : i] = legal_sample(samples[i]);
+  }
+  sent += std::int64_t(count);
   status = avcodec_send_frame(codec.get(), frame.get());
   av_frame_unref(frame.get());
   return status;
@@ -179,10 +192,10 @@ Result<void> AudioEncoder::Impl::receive(std::vector<AudioPacket>& out) {
 }
 
 Result<void> AudioEncoder::Impl::encode(bool all, std::vector<AudioPacket>& out) {
-  const auto size = std::size_t(codec->frame_size);
+  const auto size = std::size_t(codec->frame_size) * channels();
   const std::span<const float> samples(pending);
   std::size_t at = 0;
-  while (samples.size() - at >= size || (all && at < samples.size())) {
+  while (samples.size() - at >= size || (all && samples.size() - at >= channels())) {
     const std::size_t count = std::min(size, samples.size() - at);
     const int status = send(samples.subspan(at, count));
     if (status < 0) {
@@ -201,12 +214,13 @@ AudioEncoder::AudioEncoder(AudioEncoder&&) noexcept = default;
 AudioEncoder& AudioEncoder::operator=(AudioEncoder&&) noexcept = default;
 AudioEncoder::~AudioEncoder() = default;
 
-Result<AudioEncoder> AudioEncoder::open(int sample_rate, const AudioSettings& settings) {
+Result<AudioEncoder> AudioEncoder::open(int sample_rate, const AudioSettings& settings,
+                                        int channels) {
   return av::guarded([&]() -> Result<AudioEncoder> {
-    if (auto legal = check(sample_rate, settings); !legal) return legal.error();
+    if (auto legal = check(sample_rate, settings, channels); !legal) return legal.error();
     const av::LogCapture log;
     auto impl = std::make_unique<Impl>();
-    if (auto opened = impl->open(sample_rate, settings); !opened) return opened.error();
+    if (auto opened = impl->open(sample_rate, settings, channels); !opened) return opened.error();
     return AudioEncoder(std::move(impl));
   });
 }

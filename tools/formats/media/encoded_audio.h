@@ -65,8 +65,8 @@ enum class AacSearch : std::uint8_t {
 /// Encoder settings.
 struct AudioSettings {
   AudioCodec codec = AudioCodec::aac;  ///< aac in mp4, opus for browsers
-  /// Bits a second, 8000..320000 (Opus: 6000..256000). AAC allows at most 6 bits a sample, so
-  /// 64000 becomes 48000 at 8 kHz. 0: 64000 for AAC, 40000 for Opus.
+  /// Bits a second, 8000..320000 (Opus: 6000..256000). AAC allows at most 6 bits a sample and
+  /// channel, so 64000 becomes 48000 at 8 kHz. 0: for each channel 64000 for AAC, 40000 for Opus.
   int bit_rate = 0;
   /// Opus: how hard its encoder works (libopus' complexity), 0..10. Below 7 it does not look what
   /// kind of sound it has: a quarter of the time, and the bit rate is held by the packet, since
@@ -80,17 +80,19 @@ struct AudioSettings {
 /// any cut gives the same packets.
 class AudioEncoder {
  public:
-  /// Sound with `sample_rate` will be pushed. A rate that the codec lacks is resampled: AAC to the
-  /// next higher one it has, Opus to 48000. Errors: invalid_argument (rate, bit rate), unsupported
-  /// (this FFmpeg lacks the encoder), out_of_range (memory).
-  static Result<AudioEncoder> open(int sample_rate, const AudioSettings& settings = {});
+  /// Sound with `sample_rate` will be pushed, in one channel or two. A rate that the codec lacks is
+  /// resampled: AAC to the next higher one it has, Opus to 48000. Errors: invalid_argument (rate,
+  /// bit rate, channels), unsupported (this FFmpeg lacks the encoder), out_of_range (memory).
+  static Result<AudioEncoder> open(int sample_rate, const AudioSettings& settings = {},
+                                   int channels = 1);
   AudioEncoder(AudioEncoder&&) noexcept;  ///< movable
   AudioEncoder& operator=(AudioEncoder&&) noexcept;
   ~AudioEncoder();
 
   const AudioFormat& format() const;  ///< fixed from open() on
-  /// Appends sound and gives out the packets that are complete. Values outside +-1 are clipped,
-  /// NaN is 0. Errors: io (the encoder fails), invalid_argument (after finish()).
+  /// Appends sound, of two channels in pairs (left, right), and gives out the packets that are
+  /// complete. Values outside +-1 are clipped, NaN is 0. Errors: io (the encoder fails),
+  /// invalid_argument (after finish()).
   Result<std::vector<AudioPacket>> push(std::span<const float> samples);
   /// The rest. Nothing can be pushed after it.
   Result<std::vector<AudioPacket>> finish();

@@ -4,11 +4,11 @@
 ///     MuxInput input{.face = &units, .audio = &voice};
 ///     Result<MuxResult> written = write_container("talk.mp4", input);
 ///
-/// The caller keeps access units and sound; they are not modified. Samples are encoded as mono;
-/// coded sound is copied unchanged. Time 0 of the face is sample 0 of the sound. Files are written
-/// whole or not at all, and the same input gives the same bytes (with the same FFmpeg on the same
-/// machine; other versions of its encoders may round differently).
-/// Source: tools/formats/media/containers.md, sections 2.1, 2.2, 3.1, 3.2.
+/// The caller keeps access units and sound; they are not modified. Samples are encoded as mono, the
+/// sound of a file in one or two channels; coded sound is copied unchanged. Time 0 of the face is
+/// sample 0 of the sound. Files are written whole or not at all, and the same input gives the same
+/// bytes (with the same FFmpeg on the same machine; other versions of its encoders may round
+/// differently). Source: tools/formats/media/containers.md, sections 2.1, 2.2, 3.1, 3.2.
 #pragma once
 
 #include <cstdint>
@@ -29,8 +29,8 @@ namespace animeme::media {
 struct MuxInput {
   const fba::AccessUnits* face = nullptr;  ///< nullptr: sound only
   const Pcm* audio = nullptr;              ///< samples to be coded; nullptr: none
-  /// A sound file (see read_audio()) that is decoded and coded while it is written, so that memory
-  /// does not grow with it; nullptr: none.
+  /// A sound file (see AudioReader) that is decoded and coded while it is written, so that memory
+  /// does not grow with it; two channels stay two, more become two; nullptr: none.
   const std::string* audio_file = nullptr;
   /// Coded sound to be copied, packet by packet; nullptr: none. One of these three at most.
   const EncodedAudio* encoded = nullptr;

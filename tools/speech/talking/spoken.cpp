@@ -1,5 +1,6 @@
 #include "tools/speech/talking/spoken.h"
 
+#include <filesystem>
 #include <utility>
 
 #include "dam/model/builtin.h"
@@ -42,6 +43,12 @@ Result<Spoken> speak(const SpokenOptions& options, const std::string& written,
   return spoken;
 }
 
+// The path, if the file can be read once more.
+std::string again(const std::string& path) {
+  std::error_code status;
+  return std::filesystem::is_regular_file(path, status) ? path : std::string();
+}
+
 Result<Spoken> follow_script(const SpokenOptions& options, const tools::Log& log) {
   bool words = false;
   Result<dam::Script> script =
@@ -57,6 +64,7 @@ Result<Spoken> follow_script(const SpokenOptions& options, const tools::Log& log
     return ok.error().in_file(options.script);
   }
   spoken.audio = std::move(*audio);
+  spoken.recording = again(options.audio);
   return spoken;
 }
 
@@ -71,8 +79,10 @@ Result<Spoken> align_voice(const SpokenOptions& options, const tools::Log& log) 
   Result<media::Pcm> audio = read_voice(options.audio, log);
   if (!audio) return audio.error();
   dam::Script script = std::exchange(aligned->script, {});
-  return Spoken{std::move(script),    std::move(*audio),   {},
+  Spoken spoken{std::move(script),    std::move(*audio),   {},
                 TimesFrom::alignment, std::move(*aligned), {}};
+  spoken.recording = again(options.audio);
+  return spoken;
 }
 
 Result<Spoken> hear_voice(const SpokenOptions& options, const tools::Log& log) {
@@ -84,7 +94,9 @@ Result<Spoken> hear_voice(const SpokenOptions& options, const tools::Log& log) {
   Result<media::Pcm> audio = read_voice(options.audio, log);
   if (!audio) return audio.error();
   dam::Script script = heard->script;
-  return Spoken{std::move(script), std::move(*audio), {}, TimesFrom::sound, {}, std::move(*heard)};
+  Spoken spoken{std::move(script), std::move(*audio), {}, TimesFrom::sound, {}, std::move(*heard)};
+  spoken.recording = again(options.audio);
+  return spoken;
 }
 
 }  // namespace

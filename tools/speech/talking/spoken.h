@@ -57,6 +57,9 @@ struct Spoken {
   std::vector<voice::SpokenLanguage> languages;  ///< of synthetic speech by espeak-ng
   std::vector<voice::SpeechMark> marks;          ///< of SSML
   std::vector<std::string> warnings;             ///< about skipped or spelled words
+  /// The file that `audio` is one channel of; empty: synthetic speech, or the file cannot be read
+  /// again (a pipe).
+  std::string recording;
 };
 
 /// Whether a source is given completely.

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "tools/formats/files/files.h"
+#include "tools/formats/media/audio.h"
 #include "tools/formats/media/video.h"
 #include "tools/view/plot/strip.h"
 #include "tools/view/studio/picture_file.h"
@@ -17,8 +18,22 @@ namespace {
 constexpr int kStripHeight = 128;
 constexpr double kLongestPage = 6;  // seconds of curves in view
 
+// Not what its header says, which may be wrong. A file that cannot be read is answered when it is
+// written.
+double seconds_of_file(const std::string& path) {
+  Result<media::AudioReader> reader = media::AudioReader::open(path);
+  if (!reader) return 0;
+  std::size_t samples = 0;
+  for (;;) {
+    const Result<std::span<const float>> block = reader->next();
+    if (!block || block->empty()) return double(samples) / reader->sample_rate();
+    samples += block->size();
+  }
+}
+
 double seconds_of(const media::MuxInput& sound) {
   if (sound.audio != nullptr) return sound.audio->duration();
+  if (sound.audio_file != nullptr) return seconds_of_file(*sound.audio_file);
   if (sound.encoded == nullptr) return 0;
   return double(sound.encoded->length) / sound.encoded->format.sample_rate;
 }

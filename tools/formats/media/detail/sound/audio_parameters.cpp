@@ -27,11 +27,12 @@ BitRates bit_rates(AudioCodec codec) {
   return codec == AudioCodec::opus ? BitRates{6000, 256000, 40000} : BitRates{8000, 320000, 64000};
 }
 
-std::int64_t coded_bit_rate(const AudioSettings& settings, int sample_rate) {
-  std::int64_t bits = settings.bit_rate != 0 ? settings.bit_rate : bit_rates(settings.codec).usual;
+std::int64_t coded_bit_rate(const AudioSettings& settings, int sample_rate, int channels) {
+  std::int64_t bits =
+      settings.bit_rate != 0 ? settings.bit_rate : bit_rates(settings.codec).usual * channels;
   if (settings.codec == AudioCodec::aac) {
     const int rate = coded_sample_rate(settings.codec, sample_rate);
-    bits = std::min(bits, kMostAacBitsPerSample * rate);
+    bits = std::min(bits, kMostAacBitsPerSample * rate * channels);
   }
   return bits;
 }

@@ -12,14 +12,15 @@ namespace animeme::media {
 /// above that), 48000 for Opus.
 int coded_sample_rate(AudioCodec codec, int sample_rate);
 
-/// Lowest, highest and usual bit rate of an encoder, bits a second.
+/// Lowest and highest bit rate of an encoder, bits a second, and the usual one of a channel.
 struct BitRates {
   int lowest, highest, usual;
 };
 BitRates bit_rates(AudioCodec codec);
 
-/// The bit rate for the encoder: that of the settings or the default, at most 6 bits a sample.
-std::int64_t coded_bit_rate(const AudioSettings& settings, int sample_rate);
+/// The bit rate for the encoder: that of the settings or the default, at most 6 bits a sample of
+/// AAC.
+std::int64_t coded_bit_rate(const AudioSettings& settings, int sample_rate, int channels);
 
 /// Stream parameters for a muxer or decoder. `bit_rate`: mean bits a second, 0: not known.
 /// Errors: invalid_argument (rate or channels not positive), out_of_range (memory).

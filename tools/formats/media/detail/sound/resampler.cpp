@@ -7,8 +7,8 @@
 
 namespace animeme::media {
 
-Result<Resampler> Resampler::open(const SoundFormat& from, int sample_rate,
-                                  std::vector<float>& out) {
+Result<Resampler> Resampler::open(const SoundFormat& from, int sample_rate, std::vector<float>& out,
+                                  int channels) {
   if (from.sample_rate < kLowestRate || from.sample_rate > kHighestRate || from.channels <= 0) {
     return make_error(Code::out_of_range, "a sample rate of " + std::to_string(from.sample_rate) +
                                               " Hz is not supported; 1000 to 384000 Hz are");
@@ -19,7 +19,7 @@ Result<Resampler> Resampler::open(const SoundFormat& from, int sample_rate,
   }
   const bool stereo = from.channels == 2 && (from.mask == 0 || from.mask == AV_CH_LAYOUT_STEREO);
   AVChannelLayout to = AV_CHANNEL_LAYOUT_MONO;
-  if (stereo) to = AV_CHANNEL_LAYOUT_STEREO;
+  if (stereo || channels == 2) to = AV_CHANNEL_LAYOUT_STEREO;
   SwrContext* raw = nullptr;
   const int made = swr_alloc_set_opts2(&raw, &to, AV_SAMPLE_FMT_FLT, sample_rate, &layout,
                                        from.format, from.sample_rate, 0, nullptr);
@@ -29,10 +29,11 @@ Result<Resampler> Resampler::open(const SoundFormat& from, int sample_rate,
   const int status = made < 0 ? made : swr_init(raw);
   if (status < 0) {
     return make_error(Code::unsupported,
-                      std::to_string(from.channels) +
-                          " channels cannot be mixed down to one: " + av::error_text(status));
+                      std::to_string(from.channels) + " channels cannot be mixed down to " +
+                          std::to_string(channels) + ": " + av::error_text(status));
   }
-  if (stereo) resampler.stereo_.emplace(sample_rate);
+  if (stereo && channels == 1) resampler.stereo_.emplace(sample_rate);
+  resampler.channels_ = std::size_t(channels);
   resampler.from_ = from;
   resampler.rate_ = sample_rate;
   resampler.out_ = &out;
@@ -47,12 +48,13 @@ Result<void> Resampler::convert(const std::uint8_t** planes, int count) {
     return make_error(Code::out_of_range, "the sound is too long");
   }
   const bool mixes = stereo_.has_value();
+  const std::size_t each = mixes ? 2 : channels_;
   std::vector<float>& made = mixes ? pairs_ : *out_;
   const std::size_t begin = mixes ? 0 : old;
-  made.resize(begin + std::size_t(room) * (mixes ? 2 : 1));
+  made.resize(begin + std::size_t(room) * each);
   auto* target = reinterpret_cast<std::uint8_t*>(made.data() + begin);
   const int got = swr_convert(swr_.get(), &target, room, planes, count);
-  made.resize(begin + std::size_t(std::max(got, 0)) * (mixes ? 2 : 1));
+  made.resize(begin + std::size_t(std::max(got, 0)) * each);
   if (mixes) stereo_->mix(pairs_, *out_);
   if (got < 0) return av::make_av_error(got, "the sound cannot be resampled");
   given_ += got;
@@ -85,7 +87,7 @@ Result<void> Resampler::finish() {
   Result<void> drained = convert(nullptr, 0);
   if (!drained) return drained;
   const std::int64_t exact = av_rescale_rnd(taken_, rate_, from_.sample_rate, AV_ROUND_NEAR_INF);
-  const std::int64_t size = std::int64_t(out_->size()) + (exact - given_);
+  const std::int64_t size = std::int64_t(out_->size()) + (exact - given_) * std::int64_t(channels_);
   if (exact < 0 || size > std::int64_t(kMostSamples)) {
     return make_error(Code::out_of_range, "the sound is too long");
   }

@@ -1,5 +1,5 @@
-// libswresample for one stretch of sound with a constant format: anything to mono float. Two
-// channels are mixed by StereoMix.
+// libswresample for one stretch of sound with a constant format: anything to float, in one channel
+// or two. Two channels are mixed to one by StereoMix.
 #pragma once
 
 #include <cstdint>
@@ -27,8 +27,10 @@ struct SoundFormat {
 
 class Resampler {
  public:
-  /// Appends to `out`, which must outlive the resampler. Samples may be taken from it meanwhile.
-  static Result<Resampler> open(const SoundFormat& from, int sample_rate, std::vector<float>& out);
+  /// Appends to `out`, which must outlive the resampler: samples, or pairs for two `channels`. They
+  /// may be taken from it meanwhile.
+  static Result<Resampler> open(const SoundFormat& from, int sample_rate, std::vector<float>& out,
+                                int channels = 1);
 
   /// `planes` as in AVFrame::extended_data. Error: out_of_range, syntax.
   Result<void> add(const std::uint8_t* const* planes, int count);
@@ -44,11 +46,12 @@ class Resampler {
 
   SoundFormat from_;
   int rate_ = 0;
+  std::size_t channels_ = 1;  // of what comes out
   av::Swr swr_;
-  std::optional<StereoMix> stereo_;  // swr_ makes pairs
+  std::optional<StereoMix> stereo_;  // swr_ makes pairs, which become one channel
   std::vector<float> pairs_;
   std::vector<float>* out_ = nullptr;
-  std::int64_t taken_ = 0;
+  std::int64_t taken_ = 0;  // of each channel
   std::int64_t given_ = 0;
 };
 

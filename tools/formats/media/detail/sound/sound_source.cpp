@@ -10,7 +10,7 @@ namespace animeme::media {
 Result<SoundSource> SoundSource::coding(const Pcm& pcm, const AudioSettings& settings) {
   SoundSource source;
   source.pcm_ = &pcm;
-  if (auto started = source.start(pcm.sample_rate, settings); !started) return started.error();
+  if (auto started = source.start(pcm.sample_rate, settings, 1); !started) return started.error();
   return source;
 }
 
@@ -18,21 +18,22 @@ Result<SoundSource> SoundSource::decoding(const std::string& path, const AudioSe
                                           std::vector<std::string>* warnings) {
   constexpr double kLongest = 24 * 3600;
   Result<AudioReader> reader =
-      AudioReader::open(path, {.max_seconds = kLongest, .warnings = warnings});
+      AudioReader::open(path, {.max_seconds = kLongest, .warnings = warnings, .most_channels = 2});
   if (!reader) return reader.error();
   SoundSource source;
   source.reader_.emplace(std::move(*reader));
   source.path_ = path;
   const int rate = source.reader_->sample_rate();
-  if (auto started = source.start(rate, settings); !started) return started.error();
+  const int channels = source.reader_->channels();
+  if (auto started = source.start(rate, settings, channels); !started) return started.error();
   return source;
 }
 
-Result<void> SoundSource::start(int sample_rate, const AudioSettings& settings) {
-  Result<AudioEncoder> encoder = AudioEncoder::open(sample_rate, settings);
+Result<void> SoundSource::start(int sample_rate, const AudioSettings& settings, int channels) {
+  Result<AudioEncoder> encoder = AudioEncoder::open(sample_rate, settings, channels);
   if (!encoder) return encoder.error();
   encoder_.emplace(std::move(*encoder));
-  bit_rate_ = coded_bit_rate(settings, sample_rate);
+  bit_rate_ = coded_bit_rate(settings, sample_rate, channels);
   return {};
 }
 
@@ -44,7 +45,8 @@ double SoundSource::seconds() const {
 
 double SoundSource::seconds_so_far() const {
   if (audio_ == nullptr) {
-    return double(pushed_) / (reader_ ? reader_->sample_rate() : pcm_->sample_rate);
+    if (!reader_) return double(pushed_) / pcm_->sample_rate;
+    return double(pushed_) / reader_->channels() / reader_->sample_rate();
   }
   if (at_ == 0) return 0;
   const AudioPacket& last = audio_->packets[at_ - 1];

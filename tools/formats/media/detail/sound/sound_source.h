@@ -17,8 +17,8 @@ class SoundSource {
   /// Codes `pcm` while it is asked for packets. `pcm` must outlive the source. Errors: those of
   /// AudioEncoder::open().
   static Result<SoundSource> coding(const Pcm& pcm, const AudioSettings& settings);
-  /// The same for a sound file, which is decoded meanwhile. `warnings` may be null. Errors: also
-  /// those of AudioReader.
+  /// The same for a sound file, which is decoded meanwhile; two channels stay two. `warnings` may
+  /// be null. Errors: also those of AudioReader.
   static Result<SoundSource> decoding(const std::string& path, const AudioSettings& settings,
                                       std::vector<std::string>* warnings);
   /// Gives out the packets of `audio`, which must outlive the source.
@@ -37,7 +37,7 @@ class SoundSource {
 
  private:
   SoundSource() = default;
-  Result<void> start(int sample_rate, const AudioSettings& settings);
+  Result<void> start(int sample_rate, const AudioSettings& settings, int channels);
   Result<std::span<const float>> more_samples();
   Result<void> refill();
   const AudioPacket* next_copy();
@@ -50,7 +50,7 @@ class SoundSource {
   std::int64_t bit_rate_ = 0;
   std::vector<AudioPacket> coded_;
   std::size_t at_ = 0;      // in coded_ or audio_->packets
-  std::size_t pushed_ = 0;  // samples that went to the encoder
+  std::size_t pushed_ = 0;  // samples that went to the encoder, of all channels
   bool finished_ = false;
 };
 
