@@ -17,8 +17,8 @@ constexpr double kLidsCount = 3;     // the opening of the eye is small but cons
 constexpr double kWidthCounts = 1.5;
 
 static_assert(kLipPairs <= std::size_t(kFirstLowLevel));
-constexpr double kOpen = 100;         // FAP units of MNS: lips at this distance need not meet
-constexpr double kMeetingCounts = 5;  // weight of measured lip distances against FAPs
+constexpr double kOpen = 100;           // FAP units of MNS: lips at this distance need not meet
+constexpr double kMeetingCounts = 5.5;  // weight of measured lip distances against FAPs
 constexpr int kMeetingRounds = 8;
 
 double product(const FapValues& a, const FapValues& b) {

@@ -22,9 +22,14 @@ const Frame& full_jaw_open() {
 }
 
 // As a share of the one of a full jawOpen.
-double opening_of(const Frame& frame) {
+struct Opening {
+  double lips = 0;
+  double lower = 0;  // of that, where it is widest: by the lower lip, which goes with the jaw
+};
+
+Opening opening_of(const Frame& frame) {
   const Frame& full = full_jaw_open();
-  double most = 0;
+  double most = 0, lower_part = 0;
   bool lips = false;
   for (const auto& [upper, lower] : internal::kLips) {
     const auto u = std::size_t(upper), l = std::size_t(lower);
@@ -32,19 +37,40 @@ double opening_of(const Frame& frame) {
     lips = true;
     const double closing =
         (frame.mask[u] ? double(frame.value[u]) : 0) + (frame.mask[l] ? double(frame.value[l]) : 0);
-    most = std::max(most, closing / (double(full.value[u]) + double(full.value[l])));
+    const double open = closing / (double(full.value[u]) + double(full.value[l]));
+    if (open <= most) continue;
+    most = open;
+    lower_part = frame.mask[l] ? double(frame.value[l]) / full.value[l] : 0;
   }
-  if (!lips && frame.mask[3]) most = std::max(0.0, double(frame.value[3]) / full.value[3]);
-  return most;
+  if (!lips && frame.mask[3]) {
+    most = lower_part = std::max(0.0, double(frame.value[3]) / full.value[3]);
+  }
+  return {most, lower_part};
+}
+
+// What is open by the jaw, 0 to 1: in F and V the upper lip shows the teeth and the lower one stays
+// at them (on grid_s1 0.34 of the opening is the lower lip's; of S, the next one, 0.59).
+double share_of_jaw(const Opening& opening) {
+  constexpr double kAtTeeth = 0.4, kByJaw = 0.55;
+  if (!(opening.lips > 0)) return 1;
+  return std::clamp((opening.lower / opening.lips - kAtTeeth) / (kByJaw - kAtTeeth), 0.0, 1.0);
+}
+
+// Lips that nearly touch, as in a V between vowels, are near on purpose.
+double share_of_open(const Opening& opening) {
+  constexpr double kNear = 0.03, kOpen = 0.1;
+  const double share = std::clamp((opening.lips - kNear) / (kOpen - kNear), 0.0, 1.0);
+  return share * share * (3 - 2 * share);
 }
 
 }  // namespace
 
 Frame open_wider(const Frame& frame, double gain) {
   if (std::isnan(gain) || gain == 1) return frame;
-  const double opening = opening_of(frame);
-  const double wanted = opening * std::clamp(gain, kLeastMouthGain, kMostMouthGain);
-  const double more = std::min(wanted, std::max(opening, 1.0)) - opening;
+  const Opening opening = opening_of(frame);
+  const double wanted = opening.lips * std::clamp(gain, kLeastMouthGain, kMostMouthGain);
+  const double more = share_of_jaw(opening) * share_of_open(opening) *
+                      (std::min(wanted, std::max(opening.lips, 1.0)) - opening.lips);
   if (more == 0) return frame;
   Frame wide = frame;
   const Frame& full = full_jaw_open();

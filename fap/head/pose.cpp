@@ -1,7 +1,10 @@
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "fap/arkit.h"
 #include "fap/detail/lips.h"
+#include "fap/expand.h"
 #include "fap/head/detail/normals.h"
 #include "fap/head/detail/stops.h"
 #include "fap/head/detail/targets.h"
@@ -9,6 +12,8 @@
 #include "fap/head/rig.h"
 #include "fap/head/shapes.h"
 #include "fap/shape_fit.h"
+#include "fap/tables.h"
+#include "fap/viseme.h"
 #include "fap/wider.h"
 
 namespace animeme::head {
@@ -166,10 +171,21 @@ void lids_follow_gaze(const Rig& rig, fap::Frame& frame) {
   }
 }
 
+bool has_own_visemes(const Rig& rig) {
+  std::array<bool, fap::kVisemeCount> has = {true};
+  for (const ShapeControl& shape : rig.shapes) {
+    if (shape.viseme) has[std::size_t(*shape.viseme)] = true;
+  }
+  return std::all_of(has.begin(), has.end(), [](bool one) { return one; });
+}
+
 namespace {
 
+constexpr std::array kMouthGroups = {1, 5, 7};  // jaw and inner lips, tongue, outer lips
+
 bool moves_mouth(const fap::Frame& frame) {
-  for (const auto& [first, size, name] : {fap::kGroups[1], fap::kGroups[5], fap::kGroups[7]}) {
+  for (const int group : kMouthGroups) {
+    const auto& [first, size, name] = fap::kGroups[std::size_t(group)];
     for (int f = first; f < first + size; ++f) {
       if (frame.mask[std::size_t(f)]) return true;
     }
@@ -177,28 +193,61 @@ bool moves_mouth(const fap::Frame& frame) {
   return false;
 }
 
-// FAP 1 by shapes that are visemes by name, where all that it shows are there: their weights, and
-// the FAP is taken out.
-bool show_own_visemes(const Rig& rig, fap::Frame& frame, ControlValues& values) {
-  if (!frame.mask[1] || moves_mouth(frame)) return false;
-  const float blend = float(frame.viseme.blend) / 63;
-  std::array<float, fap::kVisemes.size()> weights{};
-  for (const auto& [viseme, weight] :
-       {std::pair{frame.viseme.select1, blend}, {frame.viseme.select2, 1 - blend}}) {
-    if (viseme > 0 && std::size_t(viseme) < weights.size()) weights[std::size_t(viseme)] += weight;
-  }
+// Weights of visemes by shapes that are visemes by name, where all that is shown are there.
+bool show_visemes(const Rig& rig, fap::VisemeWeights weights, ControlValues& values) {
+  weights[0] = 0;  // silence is the face at rest
   std::vector<std::pair<std::size_t, float>> shown;
   for (std::size_t i = 0; i < rig.shapes.size(); ++i) {
     if (!rig.shapes[i].viseme) continue;
-    float& weight = weights[std::size_t(*rig.shapes[i].viseme)];
-    if (weight > 0) shown.emplace_back(kFirstShape + i, weight * kFullShape);
+    double& weight = weights[std::size_t(*rig.shapes[i].viseme)];
+    if (weight > 0) shown.emplace_back(kFirstShape + i, float(weight) * kFullShape);
     weight = 0;
   }
-  if (std::any_of(weights.begin(), weights.end(), [](float weight) { return weight > 0; }))
+  if (std::any_of(weights.begin(), weights.end(), [](double weight) { return weight > 0; })) {
     return false;
+  }
   for (const auto& [control, value] : shown) values[control] = value;
+  return true;
+}
+
+// Those of FAP 1, which is taken out.
+bool show_own_visemes(const Rig& rig, fap::Frame& frame, ControlValues& values) {
+  if (!frame.mask[1] || moves_mouth(frame)) return false;
+  if (!show_visemes(rig, fap::coded_viseme(frame.viseme), values)) return false;
   frame.mask.reset(1);
   return true;
+}
+
+// Those of a script, in place of what the frame says of the mouth: that shows in pauses alone.
+bool show_script(const Rig& rig, const fap::VisemeWeights& weights, fap::Frame& low,
+                 ControlValues& values) {
+  if (!has_own_visemes(rig) || !show_visemes(rig, weights, values)) return false;
+  const double pause = std::clamp(weights[0], 0.0, 1.0);
+  for (const int group : kMouthGroups) {
+    const auto& [first, size, name] = fap::kGroups[std::size_t(group)];
+    for (int f = first; f < first + size; ++f) {
+      std::int32_t& value = low.value[std::size_t(f)];
+      value = std::int32_t(std::lround(pause * value));
+    }
+  }
+  return true;
+}
+
+// The tongue of a script, where the frame says nothing of it: speech of models moves jaw and lips.
+void move_tongue(const fap::VisemeWeights& weights, fap::Frame& low) {
+  constexpr std::array<std::size_t, 5> kTongue = {43, 44, 45, 46, 47};
+  const bool given = std::any_of(kTongue.begin(), kTongue.end(),
+                                 [&](std::size_t f) { return low.mask[f] && low.value[f] != 0; });
+  if (given) return;
+  std::array<double, fap::kFapCount + 1> sums{};
+  for (std::size_t v = 1; v < weights.size(); ++v) {
+    if (weights[v] <= 0) continue;
+    const fap::Frame shape = fap::viseme_pose(int(v));
+    for (const std::size_t f : kTongue) sums[f] += weights[v] * shape.value[f];
+  }
+  for (const std::size_t f : kTongue) {
+    if (sums[f] != 0) low.set(int(f), std::int32_t(std::lround(sums[f])));
+  }
 }
 
 }  // namespace
@@ -265,13 +314,15 @@ ControlValues control_values(const Rig& rig, const fap::Frame& frame, const Pose
                              : opened_for_shapes(low, rig.mouth_gain);
   }
   if (options.follow) lids_follow_gaze(rig, low);
+  if (options.visemes) move_tongue(*options.visemes, low);
   ControlValues values(kFirstShape + rig.shapes.size());
   for (std::size_t f = fap::kFirstLowLevel; f <= fap::kFapCount; ++f) {
     values[f] = low.mask[f] ? float(low.value[f]) : 0;
   }
   if (rig.shapes.empty()) return values;
   fap::Frame rest = frame;
-  if (show_own_visemes(rig, rest, values)) low = low_level(rest);
+  const bool by_script = options.visemes && show_script(rig, *options.visemes, low, values);
+  if (!by_script && show_own_visemes(rig, rest, values)) low = low_level(rest);
   static const std::optional<int> kJaw = fap::find_arkit("jawOpen");
   const bool cheeks_follow =
       std::any_of(rig.shapes.begin(), rig.shapes.end(),

@@ -21,11 +21,13 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "fap/frame.h"
 #include "fap/head/model.h"
 #include "fap/shape_fit.h"
+#include "fap/viseme.h"
 
 namespace animeme::head {
 
@@ -125,7 +127,15 @@ struct PoseOptions {
   bool contact = true;
   /// Upper lids follow eyes that look down or up: see lids_follow_gaze().
   bool follow = true;
+  /// What is said at this instant, if it is known (dam::VisemeCurves). A head that
+  /// has_own_visemes() shows it by them, as their maker made them, in place of the FAPs of jaw,
+  /// lips and tongue, which show in pauses alone (as far as the weight of silence goes). Of other
+  /// heads the tongue moves as in viseme_shape() of shapes.h, where the frame does not move it.
+  std::optional<fap::VisemeWeights> visemes = {};
 };
+
+/// True if a shape for each of the visemes 1 to 14 is among the shapes of the head.
+bool has_own_visemes(const Rig& rig);
 
 /// Values by control: FAPs 3..68, then the shapes of a rig.
 using ControlValues = std::vector<float>;
@@ -135,8 +145,9 @@ using ControlValues = std::vector<float>;
 /// the frame (fap::ShapeFitter), few of ARKit's and none against each other; FAP 14, 18, 39 and 40
 /// at 0 are ignored in that fit, as the jaw moves the chin and rounded lips move the cheeks. FAP 1
 /// without mouth FAPs is shown by the head's own viseme shapes, unchanged (mouth_gain does not
-/// apply), if there is one for each viseme shown. Frames are independent, so they may be requested
-/// in any order. With PoseOptions::follow, lids_follow_gaze() is applied first.
+/// apply), if there is one for each viseme shown; so is PoseOptions::visemes. Frames are
+/// independent, so they may be requested in any order. With PoseOptions::follow, lids_follow_gaze()
+/// is applied first.
 ControlValues control_values(const Rig& rig, const fap::Frame& frame,
                              const PoseOptions& options = {});
 

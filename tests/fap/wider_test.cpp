@@ -37,6 +37,26 @@ TEST(OpenWider, ShutLipsStayShut) {
   }
 }
 
+// F: the upper lip shows the teeth, the lower one is at them; V between vowels hardly opens.
+TEST(OpenWider, LipsAtTheTeethStayThere) {
+  Frame f;
+  for (const auto& [fap, value] :
+       {std::pair{3, 146}, {4, -87}, {5, -41}, {8, -75}, {9, -75}, {10, -18}, {11, -18}, {18, 0}}) {
+    f.set(fap, value);
+  }
+  EXPECT_EQ(open_wider(f, 2.3), f);
+  const Frame v = shown("jawOpen", 0.025);
+  EXPECT_EQ(open_wider(v, 2.3), v);
+  // No jump between these and open lips.
+  int before = 0;
+  for (int i = 0; i <= 100; ++i) {
+    const int now = opening(open_wider(shown("jawOpen", i * 0.002), 3));
+    EXPECT_GE(now, before);
+    EXPECT_LT(now - before, 40);
+    before = now;
+  }
+}
+
 TEST(OpenWider, NothingOpensFurtherThanTheJaw) {
   const int full = opening(shown("jawOpen", 1));
   EXPECT_NEAR(opening(open_wider(shown("jawOpen", 0.6), 4)), full, 3);

@@ -44,6 +44,24 @@ void open_without_chin(const fap::Frame& meant, fap::Frame& faps) {
   if (share > 0) faps.set(int(kJawOpens), std::int32_t(std::lround(share * full)));
 }
 
+// How far a shape puts the tongue out, where the head has one as a part of its own: at the vertex
+// that is in front. ARKit's table says a mouth's width, and makers mean anything.
+void measure_tongue(const Rig& rig, std::size_t index, fap::Frame& faps) {
+  constexpr int kTongueOut = 45;
+  constexpr double kLeast = 100;  // less is another shape's
+  const auto& rest = rig.parts[std::size_t(Part::tongue)].positions;
+  const float unit = float(fap::step_size(kTongueOut, rig.fapu));
+  if (rest.empty() || !(unit > 0)) return;
+  const auto front =
+      std::max_element(rest.begin(), rest.end(), [](Vec3 a, Vec3 b) { return a.z < b.z; });
+  const FeaturePoint tip{Part::tongue, std::uint32_t(front - rest.begin())};
+  double out = 0;
+  for (const Target& target : rig.targets) {
+    if (target.control == kFirstShape + int(index)) out += double(shift_of(target, tip).z / unit);
+  }
+  if (out >= kLeast) faps.set(kTongueOut, std::int32_t(std::lround(out)));
+}
+
 }  // namespace
 
 fap::LipMeasures lip_measures(const Head& head, const Rig& rig) {
@@ -77,7 +95,11 @@ fap::LipMeasures lip_measures(const Head& head, const Rig& rig) {
 
 std::vector<ShapeControl> measured_shapes(const Head& head, const Rig& rig) {
   static const std::optional<int> kJaw = fap::find_arkit("jawOpen");
+  static const std::optional<int> kTongue = fap::find_arkit("tongueOut");
   std::vector<ShapeControl> shapes = head.shapes;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    if (shapes[i].arkit == kTongue) measure_tongue(rig, i, shapes[i].faps);
+  }
   // Not by std::ranges, which Emscripten's library does not have.
   const bool arkit = std::any_of(shapes.begin(), shapes.end(),
                                  [](const ShapeControl& shape) { return shape.arkit == kJaw; });

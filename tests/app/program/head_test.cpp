@@ -20,11 +20,11 @@ using test::TempDir;
 using testing::HasSubstr;
 using Json = nlohmann::json;
 
-Json described(std::vector<std::string> arguments) {
+Json described(std::vector<std::string> arguments, int exit_code = 0) {
   arguments.insert(arguments.begin(), {"head"});
   arguments.push_back("--json");
   const auto result = animeme(arguments);
-  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.exit_code, exit_code) << result.err;
   return Json::parse(result.out, nullptr, false);
 }
 
@@ -91,21 +91,80 @@ TEST(HeadCommand, HeadsOfUsersAreDrawnShownAndExported) {
   EXPECT_NE(own_picture, test::slurp(dir / "rest.png"));
 }
 
-// With the gain that fits the head all is well; as spoken, AA (row 5) is less than half of a full
-// jawOpen. IY (rows 6, 7) is open, as recorded, about as far as AA.
+// What was measured of a sound.
+Json row_of(const Json& table, const std::string& sound, const std::string& measure) {
+  for (const Json& row : table["rows"]) {
+    if (row["sound"] == sound && row["measure"] == measure) return row;
+  }
+  return {{"value", -1e9}};
+}
+
+// With the gain that fits the head all is well; as spoken, AA is less than half of a full jawOpen,
+// and the command fails. IY is open, as recorded, about as far as AA.
 TEST(HeadCommand, SpeakTestMeasuresLips) {
   for (const char* name : {"woman", "man", "child"}) {
     const Json table = described({name, "--speak-test"});
-    ASSERT_EQ(table["rows"].size(), 9u) << name;
+    ASSERT_EQ(table["rows"].size(), 22u) << name;
     for (const Json& row : table["rows"]) EXPECT_TRUE(row["ok"]) << name << row.dump();
     EXPECT_GT(table["gain"], 1.2) << name;
-    EXPECT_EQ(table["rows"][7]["measure"], "lips apart, % of AA");
-    EXPECT_NEAR(double(table["rows"][7]["at_most"]), 120, 1e-9);
-    EXPECT_GT(table["rows"][7]["value"], 20) << name;
-    const Json as_spoken = described({name, "--speak-test", "--gain", "1"});
+    const Json close = row_of(table, "IY", "lips apart, % of AA");
+    EXPECT_NEAR(double(close["at_most"]), 120, 1e-9);
+    EXPECT_GT(close["value"], 20) << name;
+    const Json as_spoken = described({name, "--speak-test", "--gain", "1"}, 1);
     EXPECT_EQ(as_spoken["gain"], 1);
-    EXPECT_LT(as_spoken["rows"][5]["value"], 50) << name;
+    EXPECT_LT(row_of(as_spoken, "AA", "open, % of a full opening")["value"], 50) << name;
   }
+}
+
+// Of other people's heads: by their own visemes, and by FAPs alone.
+TEST(HeadCommand, SpeakTestOfAvatars) {
+  if (test::shared_dir().empty()) GTEST_SKIP() << "no reference data";
+  const auto data = test::shared_dir() / "data";
+  for (const char* name : {"avatars/arkit_and_visemes.glb", "avatars/brunette-t.glb",
+                           "avatars/visemes_only.glb", "avatars/vroid.glb", "ict_facekit"}) {
+    for (const char* mouth : {"visemes", "faps"}) {
+      const Json table = described({(data / name).string(), "--speak-test", "--mouth", mouth});
+      for (const Json& row : table["rows"]) EXPECT_TRUE(row["ok"]) << name << mouth << row.dump();
+      EXPECT_GE(table["rows"].size(), 18u) << name;
+    }
+  }
+  const std::string rpm = (data / "avatars/brunette-t.glb").string();
+  const Json own = described({rpm, "--speak-test"});
+  EXPECT_GT(row_of(own, "UW against IY", "mouth narrower, %")["value"], 25);
+  EXPECT_GT(row_of(own, "W against IY", "mouth narrower, %")["value"], 15);
+}
+
+// A file that knows its phones shows them by an avatar's own visemes; one that does not, by FAPs.
+TEST(HeadCommand, PhonesOfAFileAreShownByOwnVisemes) {
+  if (test::shared_dir().empty()) GTEST_SKIP() << "no reference data";
+  const TempDir dir;
+  const std::string head = (test::shared_dir() / "data/avatars/visemes_only.glb").string();
+  std::ofstream(dir / "s.tsv") << "start_s\tend_s\tphone\n0\t0.3\tSIL\n0.3\t0.5\tAA\n"
+                                  "0.5\t0.6\tF\n0.6\t0.9\tUW\n0.9\t1.2\tSIL\n";
+  for (const char* out : {"s.mp4", "s.fba"}) {
+    ASSERT_EQ(animeme({"speak", "--script", dir / "s.tsv", "-o", dir / out}).exit_code, 0);
+  }
+  const auto exported = [&](const std::string& clip, std::vector<std::string> more) {
+    std::vector<std::string> all = {"export", dir / clip, "--head", head, "-o", dir / "o.glb"};
+    all.insert(all.end(), more.begin(), more.end());
+    const auto result = animeme(all);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return test::slurp(dir / "o.glb");
+  };
+  const std::string by_visemes = exported("s.mp4", {});
+  const std::string by_faps = exported("s.mp4", {"--mouth", "faps"});
+  EXPECT_TRUE(by_visemes != by_faps);
+  // The name of the animation is that of the file without its ending.
+  EXPECT_TRUE(exported("s.fba", {}) == by_faps);
+  EXPECT_TRUE(exported("s.fba", {"--script", dir / "s.tsv"}) == by_visemes);
+  const auto drawn = [&](const std::string& mouth) {
+    EXPECT_EQ(animeme({"render", dir / "s.mp4", "--head", head, "--time", "0.56", "--size", "64x64",
+                       "--zoom", "3", "--mouth", mouth, "-o", dir / "f.png"})
+                  .exit_code,
+              0);
+    return test::slurp(dir / "f.png");
+  };
+  EXPECT_TRUE(drawn("visemes") != drawn("faps"));
 }
 
 TEST(HeadCommand, SpeakTestDrawsASheet) {

@@ -123,6 +123,51 @@ TEST(VisemeHead, CodedLipsWinOverFap1) {
   EXPECT_LT(weight(rig, frame, "viseme_aa"), 0.2f);
 }
 
+float said(const head::Rig& rig, const fap::Frame& frame, const fap::VisemeWeights& visemes,
+           std::string_view name) {
+  head::PoseOptions options;
+  options.visemes = visemes;
+  const head::ControlValues values = head::control_values(rig, frame, options);
+  for (std::size_t i = 0; i < rig.shapes.size(); ++i) {
+    if (rig.shapes[i].name == name) return values[head::kFirstShape + i] / head::kFullShape;
+  }
+  return -1;
+}
+
+// What a script says is shown by the head's own visemes, whatever the lips of the frame are, with a
+// blink; lips show in pauses.
+TEST(VisemeHead, AScriptIsShownByItsOwnShapes) {
+  const head::Rig rig = head::make_rig(woman_with(visemes_and_blink()));
+  ASSERT_TRUE(head::has_own_visemes(rig));
+  fap::Frame frame = head::viseme_shape(10);
+  for (const int fap : {19, 20}) frame.set(fap, 1024);
+  fap::VisemeWeights f{}, half{}, pause{};
+  f[2] = 1;
+  half[2] = half[14] = 0.5;
+  pause[0] = 1;
+  EXPECT_FLOAT_EQ(said(rig, frame, f, "viseme_FF"), 1);
+  EXPECT_NEAR(said(rig, frame, f, "viseme_aa"), 0, 1e-6);
+  EXPECT_GT(said(rig, frame, f, "eyesClosed"), 0.9f);
+  EXPECT_FLOAT_EQ(said(rig, frame, half, "viseme_FF"), 0.5);
+  EXPECT_FLOAT_EQ(said(rig, frame, half, "viseme_U"), 0.5);
+  EXPECT_FLOAT_EQ(said(rig, frame, pause, "viseme_aa"), weight(rig, frame, "viseme_aa"));
+  // One viseme of them missing: the lips of the frame.
+  std::vector<NamedPose> poses = visemes_and_blink();
+  poses.erase(poses.begin() + 3);
+  const head::Rig fewer = head::make_rig(woman_with(poses));
+  EXPECT_FALSE(head::has_own_visemes(fewer));
+  EXPECT_FLOAT_EQ(said(fewer, frame, f, "viseme_FF"), weight(fewer, frame, "viseme_FF"));
+  // The tongue of other heads goes between the teeth.
+  fap::VisemeWeights th{};
+  th[3] = 1;
+  head::PoseOptions options;
+  options.visemes = th;
+  for (int fap = 43; fap <= 47; ++fap) frame.set(fap, 0);
+  const head::ControlValues values = head::control_values(actor().rig, frame, options);
+  EXPECT_EQ(values[45], float(head::viseme_shape(3).value[45]));
+  EXPECT_EQ(values[3], float(frame.value[3]));
+}
+
 TEST(VisemeHead, BesideArkitVisemesAreForFap1Alone) {
   std::vector<NamedPose> poses = visemes();
   for (const char* name : {"jawOpen", "mouthFunnel", "mouthPucker", "mouthClose",

@@ -138,7 +138,8 @@ Result<int> export_avatar(const AvatarExport& job) {
     clips.push_back({fs::path(pipe ? job.output : clip.path).stem().string(),
                      clip.clip,
                      {},
-                     fs::path(job.audio).filename().string()});
+                     fs::path(job.audio).filename().string(),
+                     clip.visemes});
     if (job.sounds.empty()) continue;
     auto sound = sound_of(job.sounds[i], clip);
     if (!sound) return sound.error();

@@ -7,6 +7,7 @@
 
 #include "fap/frame.h"
 #include "fap/result.h"
+#include "fap/viseme.h"
 #include "tools/view/studio/head_file.h"
 
 namespace animeme::tools {
@@ -28,6 +29,7 @@ struct AvatarClip {
   std::string path;    ///< its file
   double start = 0;    ///< of its first frame, seconds on the clock of its own sound
   fap::Sequence clip;  ///< complete
+  std::vector<fap::VisemeWeights> visemes = {};  ///< what is said, by frame; empty: unknown
 };
 
 /// What is to be done.

@@ -7,6 +7,7 @@
 #include "tools/app/commands/export_options.h"
 #include "tools/app/commands/head_options.h"
 #include "tools/app/commands/report.h"
+#include "tools/app/commands/said_visemes.h"
 #include "tools/app/commands/script_options.h"
 #include "tools/formats/exchange/arkit.h"
 #include "tools/formats/exchange/visemes.h"
@@ -100,6 +101,12 @@ Result<int> write_arkit(const ExportOptions& options, std::vector<std::uint8_t> 
   return kOk;
 }
 
+speech::ScriptInput input_of(const ExportOptions& options) {
+  speech::ScriptInput input = options.reading;
+  input.most_seconds = options.length.of_script();
+  return input;
+}
+
 // A head of the user's own: its file, with the clips in it.
 Result<int> write_avatar(const ExportOptions& options, std::vector<std::uint8_t> bytes) {
   AvatarExport job{options.head, options.output, options.audio, options.sounds, {}};
@@ -117,7 +124,10 @@ Result<int> write_avatar(const ExportOptions& options, std::vector<std::uint8_t>
     filling.interpolate = filling.complete = true;
     auto clip = shown_face(*input, each.input, filling, options.length);
     if (!clip) return clip.error();
-    job.clips.push_back({each.input, input->start, std::move(*clip)});
+    const auto script = script_for(options.script, {each.input}, input_of(options));
+    if (!script) return script.error();
+    auto visemes = said_visemes(*input, *clip, *script, options.mouth);
+    job.clips.push_back({each.input, input->start, std::move(*clip), std::move(visemes)});
   }
   return export_avatar(job);
 }
@@ -131,8 +141,14 @@ Result<int> write_head(const ExportOptions& options, std::vector<std::uint8_t> b
       !wrong.empty()) {
     return usage_error(wrong);
   }
-  const Result<fap::Sequence> clip = read_filled(options, std::move(bytes), false);
+  Result<FaceInput> input = parse_face(std::move(bytes), options.input);
+  if (!input) return input.error();
+  fap::FillOptions filling;
+  filling.interpolate = filling.complete = true;
+  const Result<fap::Sequence> clip = shown_face(*input, options.input, filling, options.length);
   if (!clip) return clip.error();
+  const auto script = script_for(options.script, {options.input}, input_of(options));
+  if (!script) return script.error();
   studio::HeadChoice choice = options.head;
   choice.colours_at_vertices = true;
   const Result<head::Head> head = studio::load_head(choice, terminal_log());
@@ -142,6 +158,7 @@ Result<int> write_head(const ExportOptions& options, std::vector<std::uint8_t> b
   settings.morphs = options.morphs == "fap" ? gltf::MorphNames::fap : gltf::MorphNames::arkit;
   settings.audio = std::filesystem::path(options.audio).filename().string();
   settings.normals = options.normals;
+  settings.visemes = said_visemes(*input, *clip, *script, options.mouth);
   settings.name = std::filesystem::path(options.output).stem().string();
   settings.progress = [&](double done) { progress.update(done); };
   const auto file = gltf::make_glb(*head, head::make_rig(*head), *clip, settings);
@@ -173,12 +190,6 @@ Result<ShownVisemes> visemes_of(dam::Script script, const fap::Rate& rate, doubl
   auto track = exchange::track_of_events(exchange::script_events(script), rate, crossfade);
   if (!track) return track.error();
   return ShownVisemes{std::move(*track), std::move(script)};
-}
-
-speech::ScriptInput input_of(const ExportOptions& options) {
-  speech::ScriptInput input = options.reading;
-  input.most_seconds = options.length.of_script();
-  return input;
 }
 
 // A recorded voice: its text, if there is one, else what is heard.
@@ -303,7 +314,7 @@ Result<int> run(const ExportOptions& given) {
     return usage_error("several clips need your own head: --head me.glb -o talk.glb");
   }
   if (what == "arkit" || what == "head") {
-    if (!options.script.empty()) {
+    if (!options.script.empty() && what == "arkit") {
       return usage_error("--script is for visemes; add --what visemes");
     }
     if (from_script) {

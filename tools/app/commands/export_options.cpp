@@ -2,6 +2,7 @@
 
 #include "tools/app/commands/head_options.h"
 #include "tools/app/commands/options.h"
+#include "tools/app/commands/said_visemes.h"
 #include "tools/app/commands/script_options.h"
 
 namespace animeme::tools {
@@ -44,8 +45,9 @@ void add_options(OptionTable& cli, ExportOptions& options) {
           "Name of the sound to mention in .json, .xml and .glb; default for Rhubarb and "
           "TalkingHead: the input, if it has sound");
   cli.add("--script", options.script,
-          "Phoneme script for the times of visemes; default: that in the container, else the "
-          "visemes that the face shows most");
+          "Phoneme script for the times of visemes, and for --mouth; default: that in the "
+          "container, else the visemes that the face shows most");
+  add_mouth_option(cli, options.mouth);
   add_script_options(cli, options.reading.reading, options.reading.language);
   cli.add("--rate", options.rate, "Frames per second of the visemes of a script")
       ->frame_rate()
@@ -70,7 +72,7 @@ void add_options(OptionTable& cli, ExportOptions& options) {
           "clip itself (talk.mp4); see the README of tools/view/gltf for players that "
           "support it");
   for (const char* name : {"--head", "--points", "--shape-name", "--shape-names", "--morphs",
-                           "--normals", "--sound"}) {
+                           "--normals", "--sound", "--mouth"}) {
     options.of_heads.push_back(cli.get(name));
   }
 }

@@ -18,6 +18,7 @@ struct ExportOptions {
   std::string audio;                      ///< --audio
   std::string what;                       ///< --what
   std::string script;                     ///< --script
+  std::string mouth = "visemes";          ///< --mouth; see said_visemes.h
   speech::ScriptInput reading;            ///< --tier, --speaker, --script-format ...
   std::string rate = "25";                ///< --rate
   std::string format;                     ///< --format, of Rhubarb

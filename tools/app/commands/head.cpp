@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <iterator>
 #include <set>
 #include <string>
@@ -13,6 +14,7 @@
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/head_options.h"
 #include "tools/app/commands/outputs.h"
+#include "tools/app/commands/said_visemes.h"
 #include "tools/formats/common/json.h"
 #include "tools/view/gltf/glb.h"
 #include "tools/view/studio/head_file.h"
@@ -47,15 +49,19 @@ void print_row(const studio::SpeakRow& row) {
 // Prints how a head speaks (studio::check_speech()), as a table or as JSON, and draws its visemes
 // into `sheet` (empty: no picture). Errors: those of load_head() and check_speech(), of drawing
 // and writing; a usage error for an ending that is no picture.
-Result<int> test_speech(const studio::HeadChoice& choice, const std::string& sheet, bool json) {
+Result<int> test_speech(const studio::HeadChoice& choice, const std::string& mouth,
+                        const std::string& sheet, bool json) {
   if (!sheet.empty() && !studio::is_picture(extension_of(sheet))) {
     return usage_error("--speak-test draws its sheet as .png, .jpg or .webp, not " + sheet);
   }
   const Result<studio::LoadedHead> loaded = studio::load_head(choice);
   if (!loaded) return loaded.error();
   const head::Head& head = loaded->head;
-  const auto rows = studio::check_speech(head, head::make_rig(head));
+  const auto rows =
+      studio::check_speech(head, head::make_rig(head), {.visemes = mouth == kMouthByVisemes});
   if (!rows) return rows.error().in_file(choice.head);
+  const bool can = std::all_of(rows->begin(), rows->end(), std::mem_fn(&studio::SpeakRow::ok));
+  const int code = can ? kOk : kCheckFailed;
   if (!sheet.empty()) {
     if (auto drawn = draw_visemes(choice, sheet); !drawn) return drawn.error();
   }
@@ -63,7 +69,7 @@ Result<int> test_speech(const studio::HeadChoice& choice, const std::string& she
     std::printf("%s, as if its eyes were %g mm apart, lips opened %.2f times as wide (--gain)\n",
                 head.name.c_str(), studio::kEyesApart, head.mouth_gain);
     for (const studio::SpeakRow& row : *rows) print_row(row);
-    return kOk;
+    return code;
   }
   Json list = Json::array();
   for (const studio::SpeakRow& row : *rows) {
@@ -78,11 +84,12 @@ Result<int> test_speech(const studio::HeadChoice& choice, const std::string& she
                     {"gain", head.mouth_gain},
                     {"rows", list}};
   std::printf("%s\n", pretty(all).c_str());
-  return kOk;
+  return code;
 }
 
 struct HeadOptions {
   studio::HeadChoice head{.gain = ""};
+  std::string mouth = kMouthByVisemes;
   std::string output;
   bool json = false;
   bool speak_test = false;
@@ -265,7 +272,8 @@ Result<int> run(const HeadOptions& given) {
   if (const std::string problem = studio::problem_of(options.head); !problem.empty()) {
     return usage_error(problem);
   }
-  if (options.speak_test) return test_speech(options.head, options.output, options.json);
+  if (options.speak_test)
+    return test_speech(options.head, options.mouth, options.output, options.json);
   const Writer* const writer = std::find_if(
       std::begin(kWriters), std::end(kWriters),
       [kind = extension_of(options.output)](const Writer& each) { return each.extension == kind; });
@@ -298,9 +306,11 @@ void add_options(OptionTable& cli, HeadOptions& options) {
   add_shape_options(cli, options.head);
   add_gain_option(cli, options.head)->help += "; default: auto for --speak-test, else 1";
   cli.add("--speak-test", options.speak_test,
-          "Speak P B M AA IY UW with the head and measure: lips closed within 0.1 mm, UW 15 "
-          "% narrower than IY, AA open by 70 % of a full jawOpen; with -o a sheet of its "
+          "Speak with the head and measure: P B M closed within 0.1 mm, UW OW W rounder than IY, "
+          "AA open by 70 % of a full jawOpen, F V with the lip and TH with the tongue at the "
+          "teeth, lids that shut; exit code 1 if it falls short of any; with -o a sheet of its "
           "visemes");
+  add_mouth_option(cli, options.mouth);
   cli.add("-o,--output", options.output,
           "Head to write: .fdp (Xface; with its mesh, .wrl, and textures, .tga), .xmt "
           "(MPEG-4 scene with an FDP), .glb (with morph targets), .obj (with a list of "

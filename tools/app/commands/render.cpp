@@ -9,6 +9,7 @@
 #include "tools/app/commands/head_options.h"
 #include "tools/app/commands/preview.h"
 #include "tools/app/commands/report.h"
+#include "tools/app/commands/said_visemes.h"
 #include "tools/app/commands/script_options.h"
 #include "tools/formats/files/cost.h"
 #include "tools/speech/talking/voice_file.h"
@@ -39,6 +40,7 @@ struct RenderOptions {
   std::string size = "640x640";
   std::string audio;
   std::string script;
+  std::string mouth = kMouthByVisemes;
   speech::ScriptInput reading;
   std::string rate;
   std::vector<std::string> curves;
@@ -120,6 +122,9 @@ Result<std::vector<studio::ShownFrame>> choose_frames(const RenderOptions& optio
       : !options.times.empty() ? studio::frames_at(*clip, options.times)
                                : studio::even_frames(*clip, plan.sheet.x * plan.sheet.y);
   if (!frames) return frames.error().in_file(options.input);
+  const Result<dam::Script> script = script_for(options.script, {options.input}, options.reading);
+  if (!script) return script.error();
+  studio::say_in(*frames, *clip, said_visemes(*input, *clip, *script, options.mouth));
   return frames;
 }
 
@@ -165,12 +170,10 @@ Result<int> render_video(const RenderOptions& options, const Plan& plan) {
   const Result<fap::Sequence> clip =
       shown_face(*input, options.input, {.interpolate = true}, options.length);
   if (!clip) return clip.error();
-  Result<dam::Script> script = dam::Script{};
-  if (!options.script.empty()) {
-    script = speech::read_script(options.script, options.reading, terminal_log());
-    if (!script) return script.error();
-    preview.script = &*script;
-  }
+  const Result<dam::Script> script = script_for(options.script, {options.input}, options.reading);
+  if (!script) return script.error();
+  if (!options.script.empty()) preview.script = &*script;
+  preview.visemes = said_visemes(*input, *clip, *script, options.mouth);
   const Result<std::optional<speech::SoundInput>> sound = sound_of(options);
   if (!sound) return sound.error();
   media::MuxInput tracks;
@@ -261,7 +264,10 @@ void add_options(OptionTable& cli, RenderOptions& options) {
       ->check(problem_of_pixels)
       ->show_default();
   cli.add("--audio", options.audio, "Video: sound; default: that of the input");
-  cli.add("--script", options.script, "Video: phones to show below the face");
+  cli.add("--script", options.script,
+          "Phones: below the face of a video, and for --mouth; default for --mouth: those in the "
+          "container");
+  add_mouth_option(cli, options.mouth);
   add_script_options(cli, options.reading.reading, options.reading.language);
   cli.add("--curves", options.curves,
           "Video: up to three FAPs to plot below the face, by number or name")

@@ -9,6 +9,7 @@
 #include "tools/app/commands/head_options.h"
 #include "tools/app/commands/page_sound.h"
 #include "tools/app/commands/report.h"
+#include "tools/app/commands/said_visemes.h"
 #include "tools/app/commands/script_options.h"
 #include "tools/app/commands/shown_heads.h"
 #include "tools/formats/common/text.h"
@@ -31,6 +32,7 @@ struct ViewOptions {
   std::string audio;
   SoundSettings sound;
   std::string script;
+  std::string mouth = kMouthByVisemes;
   speech::ScriptInput reading;
   LengthLimit length;
   HeadChoices heads;
@@ -39,6 +41,7 @@ struct ViewOptions {
 // A clip, and whether it came with a container that may hold sound.
 struct ViewedClip {
   viewer::Clip clip;
+  FaceInput face;
   bool container = false;
 };
 
@@ -46,12 +49,13 @@ Result<ViewedClip> read_shown(const std::string& path, const LengthLimit& length
   Result<MotionInput> input = read_motion(path);
   if (!input) return input.error();
   const bool container = input->kind == FileKind::media;
-  const Result<FaceInput> face = face_of(std::move(*input), path);
+  Result<FaceInput> face = face_of(std::move(*input), path);
   if (!face) return face.error();
   Result<fap::Sequence> filled = shown_face(*face, path, {}, length);
   if (!filled) return filled.error();
   const std::string name = std::filesystem::path(path).filename().string();
-  return ViewedClip{{std::move(*filled), face->start, name}, container};
+  const double start = face->start;
+  return ViewedClip{{std::move(*filled), start, name}, std::move(*face), container};
 }
 
 std::string megabytes(double bytes) { return format("%.2f MB", bytes / 1e6); }
@@ -107,6 +111,7 @@ Result<int> run(const ViewOptions& options) {
   const std::vector<std::unique_ptr<ShownHead>> heads = std::move(*loaded);
   viewer::Page page;
   std::vector<std::string> containers;
+  std::vector<FaceInput> faces;
   for (const std::string& path : {options.first, options.second}) {
     if (path.empty()) continue;
     Result<ViewedClip> shown = read_shown(path, options.length);
@@ -115,6 +120,7 @@ Result<int> run(const ViewOptions& options) {
       warn("the sound of standard input is not read; give --audio");
     if (shown->container && path != "-") containers.push_back(path);
     page.clips.push_back(std::move(shown->clip));
+    faces.push_back(std::move(shown->face));
   }
   Result<std::optional<PageSound>> sound = sound_of(options, containers);
   if (!sound) return sound.error();
@@ -123,6 +129,11 @@ Result<int> run(const ViewOptions& options) {
   Result<dam::Script> script = script_for(options.script, containers, options.reading);
   if (!script) return script.error();
   page.script = std::move(*script);
+  // Two clips are compared: what they say of the mouth is what differs.
+  if (faces.size() == 1) {
+    viewer::Clip& clip = page.clips.front();
+    clip.visemes = said_visemes(faces.front(), clip.motion, page.script, options.mouth);
+  }
   page.head = &heads.front()->head;
   page.rig = &heads.front()->rig;
   page.head_name = heads.front()->name;
@@ -156,6 +167,7 @@ void add_options(OptionTable& cli, ViewOptions& options) {
   cli.add("--script", options.script,
           "Phoneme script (of any format) to show with the curves; default: that in the "
           "container");
+  add_mouth_option(cli, options.mouth);
   add_script_options(cli, options.reading.reading, options.reading.language);
   add_sound_options(cli, options.sound, false);
   add_length_option(cli, options.length);

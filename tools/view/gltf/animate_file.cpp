@@ -24,8 +24,8 @@ class FileMotion {
   std::size_t meshes() const { return meshes_.size(); }
   std::size_t bones() const { return bones_.size(); }
 
-  // One more animation. `audio`: for its extras; empty: none.
-  void add(const fap::Sequence& clip, const std::string& name, const std::string& audio,
+  // One more animation, with this name.
+  void add(const NamedClip& clip, const std::string& name,
            const std::function<void(double)>& progress);
 
  private:
@@ -187,14 +187,14 @@ void FileMotion::add_turns(Json& animation, std::size_t times, const ClipKeys& k
   }
 }
 
-void FileMotion::add(const fap::Sequence& clip, const std::string& name, const std::string& audio,
+void FileMotion::add(const NamedClip& clip, const std::string& name,
                      const std::function<void(double)>& progress) {
-  const ClipKeys keys = keys_of_clip(actor_.rig, clip, progress);
+  const ClipKeys keys = keys_of_clip(actor_.rig, clip.clip, clip.visemes, progress);
   const std::size_t input = edit_.floats(keys.times, "SCALAR", true);
   Json animation = {{"name", name}, {"channels", Json::array()}, {"samplers", Json::array()}};
   add_weights(animation, input, keys.weights);
   add_turns(animation, input, keys);
-  if (!audio.empty()) animation["extras"] = {{"audio", audio}};
+  if (!clip.audio.empty()) animation["extras"] = {{"audio", clip.audio}};
   edit_.add("animations", animation);
 }
 
@@ -237,7 +237,7 @@ Result<AnimatedFile> animated(std::span<const std::uint8_t> bytes, std::span<con
   for (std::size_t i = 0; i < clips.size(); ++i) {
     const NamedClip& clip = clips[i];
     const std::string name = free_name(clip.name, taken);
-    motion.add(clip.clip, name, clip.audio, [&](double done) {
+    motion.add(clip, name, [&](double done) {
       if (options.progress) options.progress((double(i) + done) / double(clips.size()));
     });
     if (clip.sound) add_sound(*edit, *clip.sound, name);

@@ -29,6 +29,7 @@
 
 #include "fap/frame.h"
 #include "fap/result.h"
+#include "fap/viseme.h"
 #include "tools/view/gltf/read_head.h"
 
 namespace animeme::gltf {
@@ -46,6 +47,8 @@ struct NamedClip {
   fap::Sequence clip;                   ///< complete (fap::fill()); its first frame is at 0 s
   std::optional<FileSound> sound = {};  ///< to be embedded
   std::string audio = {};  ///< name of its sound, for `extras.audio` of the animation; empty: none
+  /// What is said, by frame: see head::PoseOptions::visemes. Empty: unknown.
+  std::vector<fap::VisemeWeights> visemes = {};
 };
 
 /// Options of animate_file().

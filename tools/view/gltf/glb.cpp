@@ -53,7 +53,7 @@ class Writer {
   Result<std::vector<std::uint8_t>> write() {
     morphs_ = make_morphs(rig_, options_);
     report(0.3);
-    weights_ = morph_weights(rig_, clip_, morphs_, options_.morphs);
+    weights_ = morph_weights(rig_, clip_, morphs_, options_.morphs, options_.visemes);
     report(0.6);
     add_bones();
     for (std::size_t part = 0; part < head_.parts.size(); ++part) add_part(part);

@@ -43,6 +43,8 @@ struct GlbOptions {
   /// Also write normals of the morph targets: the file is twice as large, and shading is better in
   /// players that do not compute them (three.js).
   bool normals = false;
+  /// What is said, by frame: see head::PoseOptions::visemes. Empty: unknown.
+  std::vector<fap::VisemeWeights> visemes = {};
   std::function<void(double)> progress = {};  ///< 0..1; empty: not wanted
 };
 

@@ -111,7 +111,7 @@ class AnimationWriter {
 
   void add(const NamedClip& clip, const std::string& name,
            const std::function<void(double)>& progress) {
-    const ClipKeys keys = keys_of_clip(actor_.rig, clip.clip, progress);
+    const ClipKeys keys = keys_of_clip(actor_.rig, clip.clip, clip.visemes, progress);
     animation_ = {{"name", name}, {"channels", Json::array()}, {"samplers", Json::array()}};
     if (!clip.audio.empty()) animation_["extras"] = {{"audio", clip.audio}};
     times_ = buffer_.floats(keys.times, 1, BufferUse::other, true);

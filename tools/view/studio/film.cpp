@@ -55,6 +55,22 @@ fap::Frame face_at(const fap::Sequence& clip, double seconds) {
   return frame;
 }
 
+// What is said there, likewise.
+std::optional<fap::VisemeWeights> said_at(std::span<const fap::VisemeWeights> visemes,
+                                          const fap::Rate& rate, double seconds) {
+  if (visemes.empty()) return std::nullopt;
+  const auto last = visemes.size() - 1;
+  const double at = std::clamp(seconds * rate.frames_per_second(), 0.0, double(last));
+  const auto index = std::size_t(at + 1e-6);
+  fap::VisemeWeights weights = visemes[index];
+  const double share = at - double(index);
+  if (index == last || share < 1e-3) return weights;
+  for (std::size_t v = 0; v < weights.size(); ++v) {
+    weights[v] += share * (visemes[index + 1][v] - weights[v]);
+  }
+  return weights;
+}
+
 // Encoders halve the colour, so sides are even.
 int even(int side) { return side - side % 2; }
 
@@ -83,7 +99,8 @@ Result<Film> render_all(const fap::Sequence& clip, double seconds, const FilmOpt
       break;
     }
     const double time = rate.seconds(double(i));
-    const render::Image& image = view->draw(face_at(clip, time));
+    const render::Image& image =
+        view->draw(face_at(clip, time), said_at(options.visemes, clip.rate, time));
     Result<void> taken;
     if (has_strip) {
       std::vector<std::uint8_t> rgba = image.rgba;

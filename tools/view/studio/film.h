@@ -10,6 +10,7 @@
 #include "dam/script/script.h"
 #include "fap/frame.h"
 #include "fap/result.h"
+#include "fap/viseme.h"
 #include "tools/formats/files/log.h"
 #include "tools/formats/media/mux.h"
 #include "tools/view/studio/head_view.h"
@@ -24,6 +25,8 @@ struct FilmOptions {
   const dam::Script* script = nullptr;  ///< phones to show below; nullptr: none
   std::vector<int> faps;                ///< curves to show below, three at most
   int audio_bit_rate = 0;               ///< bits a second; 0: default
+  /// What is said, by frame of the clip: see head::PoseOptions::visemes. Empty: unknown.
+  std::vector<fap::VisemeWeights> visemes = {};
 };
 
 /// A video that was written.

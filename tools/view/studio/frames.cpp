@@ -58,6 +58,19 @@ Result<std::vector<ShownFrame>> even_frames(const fap::Sequence& clip, int count
   return result;
 }
 
+void say_in(std::vector<ShownFrame>& frames, const fap::Sequence& clip,
+            std::span<const fap::VisemeWeights> visemes) {
+  for (ShownFrame& shown : frames) {
+    const auto at = std::lower_bound(
+        clip.frames.begin(), clip.frames.end(), shown.frame.number,
+        [](const fap::Frame& frame, std::int64_t number) { return frame.number < number; });
+    const auto i = std::size_t(at - clip.frames.begin());
+    if (i < std::min(visemes.size(), clip.frames.size()) && at->number == shown.frame.number) {
+      shown.visemes = visemes[i];
+    }
+  }
+}
+
 Result<std::vector<ShownFrame>> shape_frames(const std::string& what) {
   std::vector<ShownFrame> result(1);
   if (what == "visemes") {

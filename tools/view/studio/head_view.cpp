@@ -36,9 +36,12 @@ Result<HeadView> HeadView::make(const HeadLook& look, const tools::Log& log) {
   return HeadView(std::make_unique<State>(std::move(*made), look));
 }
 
-const render::Image& HeadView::draw(const fap::Frame& frame) {
+const render::Image& HeadView::draw(const fap::Frame& frame,
+                                    const std::optional<fap::VisemeWeights>& visemes) {
   State& state = *state_;
-  head::pose(state.rig, frame, state.pose);
+  head::PoseOptions options;
+  options.visemes = visemes;
+  head::pose(state.rig, frame, state.pose, options);
   return state.renderer.render(render::scene_of(state.head, state.rig, state.pose), state.camera);
 }
 
@@ -47,7 +50,7 @@ Result<render::Image> draw_sheet(const HeadLook& look, std::span<const ShownFram
   Result<HeadView> view = HeadView::make(look, log);
   if (!view) return view.error();
   std::vector<render::Image> pictures;
-  for (const ShownFrame& shown : frames) pictures.push_back(view->draw(shown.frame));
+  for (const ShownFrame& shown : frames) pictures.push_back(view->draw(shown.frame, shown.visemes));
   return render::contact_sheet(pictures, std::min(columns, int(pictures.size())));
 }
 

@@ -32,8 +32,9 @@ class HeadView {
   HeadView& operator=(HeadView&&) noexcept;
   ~HeadView();
 
-  /// The picture is valid until the next call.
-  const render::Image& draw(const fap::Frame& frame);
+  /// The picture is valid until the next call. `visemes`: see head::PoseOptions::visemes.
+  const render::Image& draw(const fap::Frame& frame,
+                            const std::optional<fap::VisemeWeights>& visemes = {});
 
  private:
   struct State;

@@ -45,7 +45,9 @@ std::string pack_clip(const Clip& clip, const head::Rig& rig) {
   frames.reserve(clip.motion.frames.size());
   fap::Mask carried;
   for (const fap::Frame& frame : clip.motion.frames) {
-    frames.push_back(head::control_values(rig, frame));
+    head::PoseOptions options;
+    if (frames.size() < clip.visemes.size()) options.visemes = clip.visemes[frames.size()];
+    frames.push_back(head::control_values(rig, frame, options));
     carried |= head::low_level(frame).mask;
   }
   std::vector<std::size_t> controls;

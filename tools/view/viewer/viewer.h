@@ -32,6 +32,8 @@ struct Clip {
   fap::Sequence motion;
   double start = 0;  ///< time of frame number 0 on the clock of the sound, seconds
   std::string name;  ///< display name; any text
+  /// What is said, by frame: see head::PoseOptions::visemes. Empty: unknown.
+  std::vector<fap::VisemeWeights> visemes = {};
 };
 
 /// A sound file for browsers.

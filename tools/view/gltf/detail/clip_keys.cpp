@@ -6,17 +6,20 @@
 namespace animeme::gltf {
 
 ClipKeys keys_of_clip(const head::Rig& rig, const fap::Sequence& clip,
+                      std::span<const fap::VisemeWeights> visemes,
                       const std::function<void(double)>& progress) {
   ClipKeys keys;
   head::Pose pose;
   for (const fap::Frame& frame : clip.frames) {
+    head::PoseOptions options;
+    if (keys.times.size() < visemes.size()) options.visemes = visemes[keys.times.size()];
     keys.times.push_back(float(clip.rate.seconds(double(frame.number - clip.frames[0].number))));
-    const head::ControlValues values = head::control_values(rig, frame);
+    const head::ControlValues values = head::control_values(rig, frame, options);
     keys.weights.emplace_back();
     for (std::size_t i = 0; i < rig.shapes.size(); ++i) {
       keys.weights.back().push_back(values[head::kFirstShape + i] / head::kFullShape);
     }
-    head::pose(rig, frame, pose);
+    head::pose(rig, values, pose, options);
     keys.bones.push_back(bones_of(rig, pose));
     progress(double(keys.times.size()) / double(clip.frames.size()));
   }

@@ -3,9 +3,11 @@
 
 #include <array>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "fap/frame.h"
+#include "fap/viseme.h"
 #include "tools/view/gltf/detail/bones.h"
 #include "tools/view/gltf/detail/node_turn.h"
 
@@ -17,8 +19,9 @@ struct ClipKeys {
   std::vector<std::array<BoneKey, kBoneCount>> bones;
 };
 
-/// `progress` gets 0..1.
+/// `visemes`: what is said, by frame (head::PoseOptions::visemes), or empty. `progress` gets 0..1.
 ClipKeys keys_of_clip(const head::Rig& rig, const fap::Sequence& clip,
+                      std::span<const fap::VisemeWeights> visemes,
                       const std::function<void(double)>& progress);
 
 /// Rotations of a node that makes a share of the turns of a bone, four numbers a key, the shorter

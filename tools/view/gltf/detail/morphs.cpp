@@ -77,7 +77,8 @@ std::vector<Morph> own_shapes(const head::Rig& rig, const GlbOptions& options) {
 bool is_bone(int fap) { return (fap >= 23 && fap <= 28) || (fap >= 48 && fap <= 50); }
 
 std::vector<std::vector<float>> own_weights(const head::Rig& rig, const fap::Sequence& clip,
-                                            const std::vector<Morph>& morphs) {
+                                            const std::vector<Morph>& morphs,
+                                            std::span<const fap::VisemeWeights> visemes) {
   std::vector<std::size_t> controls;
   for (const Morph& morph : morphs) {
     const auto shape =
@@ -87,7 +88,9 @@ std::vector<std::vector<float>> own_weights(const head::Rig& rig, const fap::Seq
   }
   std::vector<std::vector<float>> rows;
   for (const fap::Frame& frame : clip.frames) {
-    const head::ControlValues values = head::control_values(rig, frame);
+    head::PoseOptions options;
+    if (rows.size() < visemes.size()) options.visemes = visemes[rows.size()];
+    const head::ControlValues values = head::control_values(rig, frame, options);
     rows.emplace_back();
     for (const std::size_t control : controls) {
       rows.back().push_back(values[control] / head::kFullShape);
@@ -137,9 +140,10 @@ std::vector<Morph> make_morphs(const head::Rig& rig, const GlbOptions& options) 
 }
 
 std::vector<std::vector<float>> morph_weights(const head::Rig& rig, const fap::Sequence& clip,
-                                              const std::vector<Morph>& morphs, MorphNames names) {
+                                              const std::vector<Morph>& morphs, MorphNames names,
+                                              std::span<const fap::VisemeWeights> visemes) {
   std::vector<std::vector<float>> rows;
-  if (!rig.shapes.empty()) return own_weights(rig, clip, morphs);
+  if (!rig.shapes.empty()) return own_weights(rig, clip, morphs, visemes);
   fap::ArkitFitter fitter;
   for (const fap::Frame& frame : clip.frames) {
     const fap::Frame low = head::low_level(frame);

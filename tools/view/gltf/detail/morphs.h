@@ -25,8 +25,9 @@ struct Morph {
 /// All targets that move anything beside bones. Of a rig with shapes: these, by their names.
 std::vector<Morph> make_morphs(const head::Rig& rig, const GlbOptions& options);
 
-/// Weights of the targets for each frame of the clip, frame by frame.
+/// Weights of the targets for each frame of the clip, frame by frame. `visemes`: see GlbOptions.
 std::vector<std::vector<float>> morph_weights(const head::Rig& rig, const fap::Sequence& clip,
-                                              const std::vector<Morph>& morphs, MorphNames names);
+                                              const std::vector<Morph>& morphs, MorphNames names,
+                                              std::span<const fap::VisemeWeights> visemes);
 
 }  // namespace animeme::gltf
