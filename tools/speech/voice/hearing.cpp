@@ -133,9 +133,16 @@ Votes count_votes(const std::vector<Path>& paths, std::size_t phones) {
   return votes;
 }
 
-Path agreed_path(const HearingModel& model, const Votes& votes) {
+namespace {
+
+bool is_closure(const HearingModel& model, std::size_t phone) {
+  return model.classes[phone] == dam::PhoneClass::bilabial;
+}
+
+// The best path through the votes. Lips do not close in frames that are `open`.
+Path best_path(const HearingModel& model, const Votes& votes,
+               const std::vector<std::uint8_t>& open) {
   const std::size_t phones = model.labels.size(), states = phones * kShortest;
-  if (votes.empty()) return {};
   std::vector<std::vector<std::uint16_t>> from(votes.size(), std::vector<std::uint16_t>(states));
   std::vector<float> best(states, -1e9f), next(states), gain(phones);
   for (std::size_t frame = 0; frame < votes.size(); ++frame) {
@@ -144,7 +151,7 @@ Path agreed_path(const HearingModel& model, const Votes& votes) {
     for (std::size_t p = 0; p < phones; ++p) {
       const auto shape = model.classes[p];
       gain[p] = (1 - kKin) * votes[frame][p] + kKin * kin[std::size_t(shape)];
-      if (shape == dam::PhoneClass::bilabial) gain[p] *= kBilabials;
+      if (is_closure(model, p)) gain[p] *= open[frame] != 0 ? 0 : kBilabials;
     }
     std::size_t leader = kShortest - 1;  // the best that may end
     for (std::size_t s = leader; s < states; s += kShortest)
@@ -168,6 +175,43 @@ Path agreed_path(const HearingModel& model, const Votes& votes) {
   for (std::size_t frame = votes.size(); frame-- > 0;) {
     path[frame] = std::uint8_t(state / kShortest);
     state = from[frame][state];
+  }
+  return path;
+}
+
+// Adds to `open` the frames of closures that have less than `least` of the votes. Returns whether
+// there were some.
+bool open_doubtful(const HearingModel& model, const Votes& votes, float least, const Path& path,
+                   std::vector<std::uint8_t>& open) {
+  bool any = false;
+  for (std::size_t first = 0, end = 0; first < path.size(); first = end) {
+    float share = 0;
+    for (end = first; end < path.size() && is_closure(model, path[end]); ++end) {
+      for (std::size_t p = 0; p < model.labels.size(); ++p) {
+        share += is_closure(model, p) ? votes[end][p] : 0;
+      }
+    }
+    if (end == first) {
+      ++end;
+    } else if (share < least * float(end - first)) {
+      std::fill(open.begin() + std::ptrdiff_t(first), open.begin() + std::ptrdiff_t(end), 1);
+      any = true;
+    }
+  }
+  return any;
+}
+
+}  // namespace
+
+Path agreed_path(const HearingModel& model, const Votes& votes, float least_closure) {
+  if (votes.empty()) return {};
+  std::vector<std::uint8_t> open(votes.size());
+  Path path = best_path(model, votes, open);
+  // What moves into the frames of one may be another.
+  constexpr int kMostLooks = 8;
+  for (int look = 1; look < kMostLooks && open_doubtful(model, votes, least_closure, path, open);
+       ++look) {
+    path = best_path(model, votes, open);
   }
   return path;
 }

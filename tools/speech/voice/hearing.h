@@ -69,8 +69,15 @@ using Votes = std::vector<std::vector<float>>;
 Votes count_votes(const std::vector<Path>& paths, std::size_t phones);
 
 /// The path that the votes agree on, of phones of three frames and more. Votes for phones of the
-/// same shape of the mouth count in part.
-Path agreed_path(const HearingModel& model, const Votes& votes);
+/// same shape of the mouth count in part. Lips close only where, on average over the closure, the
+/// share `least_closure` of the votes closes them; elsewhere the best other phones are shown.
+Path agreed_path(const HearingModel& model, const Votes& votes, float least_closure);
+
+/// The share of votes below which most closures of a recording are in vain, and above which nine
+/// tenths of the right ones lie (tools/speech/voice/measured.md, section 5).
+inline constexpr float kLeastClosure = 0.4f;
+/// Live sound has fewer closures in vain, and loses more of the right ones.
+inline constexpr float kLeastClosureLive = 0;
 
 /// The phones of a path whose frame 0 is frame `first` of a sound; times are from `origin`
 /// (seconds), from 0 to `end` (seconds). Without gaps, no two silences in a row. `confidences`, if

@@ -214,7 +214,7 @@ class Drawing {
     std::vector<Path> drawn;
     for (std::size_t i = 0; i < options_->readings; ++i) drawn.push_back(paths.draw(begun_, i));
     Votes votes = count_votes(drawn, model_->labels.size());
-    Path agreed = agreed_path(*model_, votes);
+    Path agreed = agreed_path(*model_, votes, kLeastClosure);
     const auto append = [&](auto& to, const auto& from) {
       to.insert(to.end(), from.begin(), from.begin() + std::ptrdiff_t(size));
     };
@@ -230,7 +230,7 @@ class Drawing {
     std::vector<Path> drawn;
     for (std::size_t i = 0; i < options_->readings; ++i) drawn.push_back(free_.draw(begun_, i));
     const Votes votes = count_votes(drawn, model_->labels.size());
-    const Path agreed = agreed_path(*model_, votes);
+    const Path agreed = agreed_path(*model_, votes, kLeastClosure);
     const std::size_t size = last && agreed.size() <= kBlockFrames
                                  ? agreed.size()
                                  : cut_in_pause(*model_, agreed, kBlockFrames);

@@ -69,8 +69,8 @@ class Listener : public SoundListener {
     std::vector<Path> drawn;
     for (std::size_t i = 0; i < readings_; ++i) drawn.push_back(paths_.draw(first, i));
     const Votes votes = count_votes(drawn, model_.labels.size());
-    heard.script = script_of_path(model_, agreed_path(model_, votes), first, from, length, &votes,
-                                  &heard.confidences);
+    heard.script = script_of_path(model_, agreed_path(model_, votes, kLeastClosureLive), first,
+                                  from, length, &votes, &heard.confidences);
     for (const Path& path : drawn) {
       heard.readings.push_back(script_of_path(model_, path, first, from, length));
     }
