@@ -114,6 +114,40 @@ TEST(OwnScript, WritingWithoutVowelsIsWarnedOf) {
   }
 }
 
+// espeak-ng's Thai voice takes two of the most frequent vowel signs for consonants: "ดี" is D S.
+TEST(OwnScript, VowelSignsThatAreSpokenAsConsonantsAreWarnedOf) {
+  SKIP_WITHOUT_SCRIPTS();
+  const struct {
+    const char *language, *text;
+    bool warns;
+  } texts[] = {
+      {"th", "สวัสดีครับ วันนี้อากาศดีมาก เราไปเดินเล่นที่สวนสาธารณะกันไหม", true},
+      {"th", "ประเทศไทยเป็นประเทศที่ตั้งอยู่ในเอเชียตะวันออกเฉียงใต้ มีกรุงเทพมหานครเป็นเมืองหลวง", true},
+      {"th", "งู หมู ปู", false},  // signs that it knows
+      {"hi", "सभी मनुष्यों को गौरव और अधिकारों के मामले में जन्मजात स्वतन्त्रता और समानता प्राप्त है", false},
+      {"bn", "সমস্ত মানুষ স্বাধীনভাবে সমান মর্যাদা এবং অধিকার নিয়ে জন্মগ্রহণ করে", false},
+      {"ta", "மனிதப் பிறிவியினர் சகலரும் சுதந்திரமாகவே பிறக்கின்றனர்", false},
+      {"ml", "മനുഷ്യരെല്ലാവരും തുല്യാവകാശങ്ങളോടും അന്തസ്സോടും സ്വാതന്ത്ര്യത്തോടുംകൂടി ജനിച്ചിട്ടുള്ളവരാണ്", false},
+      {"si",
+       "සියලු මනුෂ්‍යයෝ නිදහස්ව උපත ලබා "
+       "ඇත",
+       false},
+      {"te", "ప్రతిపత్తిస్వత్వముల విషయమున మానవులెల్లరును జన్మతః స్వతంత్రులును సమానులును నగుదురు", false},
+      {"ar", "ذهب الولد إلى المدرسة في الصباح الباكر", false},
+      {"en", "Good morning", false},
+  };
+  for (const auto& one : texts) {
+    const auto speech = speak(one.text, one.language);
+    ASSERT_TRUE(speech) << one.text << ": " << speech.error().describe();
+    EXPECT_EQ(std::any_of(speech->warnings.begin(), speech->warnings.end(),
+                          [](const std::string& text) {
+                            return text.find("vowel signs of this text") != std::string::npos;
+                          }),
+              one.warns)
+        << one.text;
+  }
+}
+
 TEST(OwnScript, WordsBehindAnAbbreviationAreNamed) {
   SKIP_WITHOUT_SCRIPTS();
   const auto speech = speak("Das ist z. B. so.", "de");

@@ -17,6 +17,7 @@
   X(groups_by_blank) \
   X(guess_language) \
   X(is_date) \
+  X(is_vowel_sign) \
   X(japanese_words) \
   X(kind_of) \
   X(language_code) \

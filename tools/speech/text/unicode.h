@@ -40,6 +40,10 @@ inline bool is_letter_or_digit(char32_t code) {
   return is_letter(code) || kind_of(code) == Kind::digit;
 }
 
+/// A vowel that is written as a sign at the letter before it ("ี" of Thai, "ि" of Hindi). Without
+/// ICU none is known.
+bool is_vowel_sign(char32_t code);
+
 /// 0..9 of a digit of any script, -1 of anything else.
 int digit_value(char32_t code);
 

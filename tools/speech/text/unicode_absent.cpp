@@ -30,6 +30,7 @@ Kind ascii_kind(char32_t code) {
 
 bool unicode_here() { return ask(&F::unicode_here, false); }
 Kind kind_of(char32_t code) { return ask(&F::kind_of, ascii_kind(code), code); }
+bool is_vowel_sign(char32_t code) { return ask(&F::is_vowel_sign, false, code); }
 int digit_value(char32_t code) {
   return ask(&F::digit_value, code >= U'0' && code <= U'9' ? int(code - U'0') : -1, code);
 }

@@ -101,6 +101,12 @@ Kind kind_of(char32_t code) {
   return Kind::punctuation;
 }
 
+bool is_vowel_sign(char32_t code) {
+  const auto c = UChar32(code);
+  return kind_of(code) == Kind::mark &&
+         u_getIntPropertyValue(c, UCHAR_INDIC_SYLLABIC_CATEGORY) == U_INSC_VOWEL_DEPENDENT;
+}
+
 int digit_value(char32_t code) { return u_charDigitValue(UChar32(code)); }
 
 char32_t lower(char32_t code) { return char32_t(u_tolower(UChar32(code))); }

@@ -74,6 +74,17 @@ EspeakJob job_of(const text::Utterance& utterance, const VoiceOptions& options) 
   return job;
 }
 
+// Asks the voice for the vowel signs of a text, one syllable each. Nothing where it cannot tell.
+std::string ask_for_vowel_signs(std::string_view text, const std::string& voice,
+                                const VoiceOptions& options) {
+  const std::vector<VowelSign> signs = vowel_signs(text::code_points(text));
+  if (signs.empty()) return {};
+  std::vector<std::string> syllables;
+  for (const VowelSign& one : signs) syllables.push_back(one.syllable);
+  const auto phones = pronounce(syllables, options);
+  return phones ? warn_of_vowel_signs(signs, *phones, voice) : std::string();
+}
+
 }  // namespace
 
 Result<Speech> speak_text(std::string_view text, const VoiceOptions& options) {
@@ -100,7 +111,11 @@ Result<Speech> speak_text(std::string_view text, const VoiceOptions& options) {
   speech.marks = find_marks(raw, rate, *utterance);
   std::string letters = warn_of_letters(raw, *utterance, speech.languages);
   if (!letters.empty()) speech.warnings.push_back(std::move(letters));
-  std::string vowels = warn_of_missing_vowels(speech.script, speech.voice);
+  std::string vowels;
+  if (utterance->speakers.size() == 1) {
+    vowels = ask_for_vowel_signs(*cleaned, speech.voice, options);
+  }
+  if (vowels.empty()) vowels = warn_of_missing_vowels(speech.script, speech.voice);
   if (!vowels.empty()) speech.warnings.push_back(std::move(vowels));
   speech.audio.sample_rate = rate;
   speech.audio.samples.reserve(raw.samples.size());

@@ -197,6 +197,48 @@ std::string warn_of_missing_vowels(const dam::Script& script, const std::string&
          "(--tts)";
 }
 
+std::vector<VowelSign> vowel_signs(std::u32string_view text) {
+  constexpr std::size_t kMostSigns = 24;
+  std::vector<VowelSign> signs;
+  for (std::size_t i = 1; i < text.size(); ++i) {
+    if (!text::is_vowel_sign(text[i]) || !text::is_letter(text[i - 1])) continue;
+    const std::string sign = text::utf8(text.substr(i, 1));
+    const auto known = std::find_if(signs.begin(), signs.end(),
+                                    [&](const VowelSign& one) { return one.sign == sign; });
+    if (known == signs.end()) {
+      signs.push_back({text::utf8(text.substr(i - 1, 2)), sign, 1});
+    } else {
+      ++known->count;
+    }
+  }
+  std::stable_sort(signs.begin(), signs.end(),
+                   [](const VowelSign& a, const VowelSign& b) { return a.count > b.count; });
+  if (signs.size() > kMostSigns) signs.resize(kMostSigns);
+  return signs;
+}
+
+std::string warn_of_vowel_signs(const std::vector<VowelSign>& signs,
+                                const std::vector<std::vector<std::string>>& phones,
+                                const std::string& voice) {
+  constexpr std::size_t kFewOf = 20;  // one of so many is let pass
+  std::size_t all = 0, lost = 0;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(signs.size(), phones.size()); ++i) {
+    all += signs[i].count;
+    const bool spoken = std::any_of(phones[i].begin(), phones[i].end(), [](const auto& label) {
+      const dam::PhoneInfo* info = dam::find_phone(label);
+      return info != nullptr && info->vowel;
+    });
+    if (spoken) continue;
+    lost += signs[i].count;
+    list += (list.empty() ? "" : ", ") + signs[i].syllable;
+  }
+  if (lost * kFewOf <= all) return {};
+  return "the voice " + voice + " speaks " + std::to_string(lost) + " of " + std::to_string(all) +
+         " vowel signs of this text without a vowel (" + list +
+         "), so it is not intelligible: use another voice (--tts)";
+}
+
 void correct_ipa(RawSpeech& raw, const text::Utterance& utterance) {
   std::size_t speaker = 0;
   for (std::size_t i = 0; i < raw.events.size(); ++i) {
