@@ -39,6 +39,10 @@ constexpr std::pair<std::string_view, std::string_view> kOpponents[] = {
     {"eyeBlinkLeft", "eyeWideLeft"},
     {"eyeBlinkRight", "eyeWideRight"}};
 
+// Lips that round go forward more than ARKit's pucker does for the width that it takes off, so that
+// the corners would keep it from rounding them: recorded U would be a third less round.
+constexpr std::string_view kKeepsRound = "mouthPucker", kSpreads = "mouthStretch";
+
 // What people hardly do when they speak.
 constexpr std::string_view kSeldom[] = {"mouthFrown",  "mouthLeft",  "mouthRight", "jawLeft",
                                         "jawRight",    "jawForward", "cheekPuff",  "mouthShrug",
@@ -61,6 +65,7 @@ struct ByChannel {
   int jaw = channel_of("jawOpen");
   std::array<double, kArkitChannelCount> least = {};
   std::vector<std::pair<int, int>> opponents;
+  std::vector<bool> keeps;
 };
 
 const ByChannel& by_channel() {
@@ -69,6 +74,7 @@ const ByChannel& by_channel() {
     for (std::size_t c = 0; c < made.least.size(); ++c) made.least[c] = least_of(kArkitNames[c]);
     for (const auto& [one, other] : kOpponents) {
       made.opponents.emplace_back(channel_of(one), channel_of(other));
+      made.keeps.push_back(one == kKeepsRound && other.starts_with(kSpreads));
     }
     return made;
   }();
@@ -93,9 +99,11 @@ Sparsity sparsity_of(std::span<const std::optional<int>> channels, double share)
                                                   : 0;
     sparsity.least.push_back(share * least);
   }
-  for (const auto& [one, other] : names.opponents) {
-    const std::size_t a = place(one), b = place(other);
-    if (jaw && std::max(a, b) < channels.size()) sparsity.opponents.push_back({a, b});
+  for (std::size_t i = 0; i < names.opponents.size(); ++i) {
+    const std::size_t a = place(names.opponents[i].first), b = place(names.opponents[i].second);
+    if (!jaw || std::max(a, b) >= channels.size()) continue;
+    sparsity.opponents.push_back({a, b});
+    sparsity.keeps.push_back(names.keeps[i]);
   }
   return sparsity;
 }

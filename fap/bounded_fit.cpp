@@ -19,6 +19,7 @@ constexpr double kWidthCounts = 1.5;
 static_assert(kLipPairs <= std::size_t(kFirstLowLevel));
 constexpr double kOpen = 100;           // FAP units of MNS: lips at this distance need not meet
 constexpr double kMeetingCounts = 5.5;  // weight of measured lip distances against FAPs
+constexpr double kRelaxed = 4;          // how much more than it is worth a shape may be used
 constexpr int kMeetingRounds = 8;
 
 double product(const FapValues& a, const FapValues& b) {
@@ -160,15 +161,15 @@ double BoundedFit::residual(const FapValues& target) const {
 
 // Which shapes may be used, and how much: what they are worth when each length costs, times
 // kRelaxed, less what their opponent is worth. That changes steadily with the face, so a shape that
-// comes into use does not jump. A face that these very shapes made, as a capture is, leaves next to
-// nothing: it gets them back as they were.
-void BoundedFit::choose_few(const std::vector<double>& wanted, double steadiness, double residual) {
-  constexpr double kRelaxed = 4;
+// comes into use does not jump. A face that these very shapes made, as a capture is, leaves next
+// to nothing: it gets them back as they were.
+double BoundedFit::choose_few(const std::vector<double>& wanted, double steadiness,
+                              double residual) {
   constexpr double kMostToll = 0.25;
   constexpr double kMadeOfThem = 0.03;  // twice of it: by something else
   const double free = std::clamp(2 - residual / kMadeOfThem, 0.0, 1.0);
   highs_.assign(shapes_.size(), 1.0);
-  if (free >= 1) return;
+  if (free >= 1) return free;
   left_.assign(wanted.begin(), wanted.end());
   for (std::size_t i = 0; i < left_.size(); ++i) {
     const double length = std::sqrt(gram_[i * left_.size() + i]);
@@ -178,7 +179,9 @@ void BoundedFit::choose_few(const std::vector<double>& wanted, double steadiness
   descend(steadiness);
   std::vector<double>& worth = scratch_;
   worth = weights_;
-  for (const auto& [a, b] : sparsity_.opponents) {
+  for (std::size_t k = 0; k < sparsity_.opponents.size(); ++k) {
+    if (sparsity_.keeps[k]) continue;
+    const auto& [a, b] = sparsity_.opponents[k];
     const double both = std::min(weights_[a], weights_[b]);
     worth[a] = std::min(worth[a], weights_[a] - both);
     worth[b] = std::min(worth[b], weights_[b] - both);
@@ -189,6 +192,31 @@ void BoundedFit::choose_few(const std::vector<double>& wanted, double steadiness
         sparsity_.least[i] > kMostToll ? 1 : kRelaxed;  // a mood is not made of little
     highs_[i] = std::max(free, std::clamp(relaxed * worth[i], 0.0, 1.0));
   }
+  return free;
+}
+
+// Of opponents of which the first one keeps what it has beside the second one: what that does is
+// taken off the face, with it. `free`: of choose_few().
+void BoundedFit::part_keepers(std::vector<double>& wanted, double steadiness, double free) {
+  bool any = false;
+  for (std::size_t k = 0; k < sparsity_.opponents.size(); ++k) {
+    const auto& [first, second] = sparsity_.opponents[k];
+    const double one = weights_[first], other = weights_[second];
+    const double both = std::min(one, other);
+    if (!sparsity_.keeps[k] || both <= 0) continue;
+    any = true;
+    if (other > one) {
+      highs_[first] =
+          std::min(highs_[first], std::max(free, std::max(one - kRelaxed * (other - one), 0.0)));
+    }
+    highs_[second] =
+        std::min(highs_[second], std::max(free, std::clamp(kRelaxed * (other - both), 0.0, 1.0)));
+    const double gone = std::max(other - highs_[second], 0.0);
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      wanted[i] -= gone * gram_[i * wanted.size() + second];
+    }
+  }
+  if (any) descend(wanted, steadiness, 0);
 }
 
 // Where measured lips do not meet as they should, their distances join the sum of squares; one that
@@ -266,8 +294,9 @@ const std::vector<double>& BoundedFit::fit(const Mask& mask, const FapValues& ta
   }
   descend(wanted, steadiness, 0);
   if (!sparsity_.least.empty()) {
-    choose_few(wanted, steadiness, residual(target));
+    const double free = choose_few(wanted, steadiness, residual(target));
     descend(wanted, steadiness, 0);
+    if (free < 1) part_keepers(wanted, steadiness, free);
   }
   if (!lips_.closing.empty()) close_lips(wanted, target, steadiness);
   keep_within_limit(wanted, steadiness);

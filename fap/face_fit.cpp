@@ -17,11 +17,12 @@ constexpr double kMostlyLids = 0.6;  // of what a shape of lids and brows does, 
 constexpr int kCloses = 500;         // units of a lid: a blink
 constexpr int kOpens = 100;          // likewise, upwards: a wide eye
 constexpr int kUpperLids[] = {19, 20};
-constexpr double kLidsMeet = 1023;  // FAP 19 and 21 together, rounded
+constexpr double kLidsNearlyMeet = 985, kLidsMeet = 1023;  // FAP 19 and 21 together, rounded
 // The lower lid goes so far in blinks, squints and smiles; the upper one closes what is left.
 constexpr double kLowerLid = 330;
 // Captured blinks of eyes that look down are 0.85 to 1 where lids meet.
 constexpr double kBlinkLookingDown = 0.15, kLooksDown = 0.2;
+constexpr double kBothLids = 0.04;  // opposite lids that are seen by nobody
 
 bool is_gaze(int fap) { return fap >= 23 && fap <= 26; }
 bool is_lid_or_brow(int fap) { return (fap >= 19 && fap <= 22) || (fap >= 31 && fap <= 38); }
@@ -167,6 +168,17 @@ FaceFit::FaceFit(Shapes shapes, std::span<const std::optional<int>> channels,
     for (const auto& [a, b] : sparsity.opponents) opponents_.push_back({few_of_[a], few_of_[b]});
     few_.set_sparsity(std::move(sparsity));
   }
+  for (const std::size_t i : made_) {
+    for (const ShapeWeight& weight : shapes_[i]) moved_.set(std::size_t(weight.fap));
+  }
+  for (const std::size_t a : made_) {
+    for (const std::size_t b : made_) {
+      for (const int fap : kUpperLids) {
+        const double closes = value_of(shapes_[a], fap), opens = -value_of(shapes_[b], fap);
+        if (closes >= kCloses && opens >= kOpens) opposite_lids_.push_back({a, b, opens / closes});
+      }
+    }
+  }
   for (const std::size_t i : lids_) {
     for (int side = 0; side < 2; ++side) {
       if (value_of(shapes_[i], 19 + side) >= kCloses) blinks_[std::size_t(side)].push_back(i);
@@ -215,19 +227,34 @@ void FaceFit::part_opponents(double certainty) {
   }
 }
 
+// What is left of shapes that open and of those that close an eye goes, as the lid stays.
+void FaceFit::part_lids() {
+  for (const OppositeLids& pair : opposite_lids_) {
+    const double least = std::min(weights_[pair.closes], weights_[pair.opens]);
+    if (!sparse_ || least <= kBothLids) continue;
+    const double opens = std::min(weights_[pair.opens] - kBothLids,
+                                  (weights_[pair.closes] - kBothLids) / pair.ratio);
+    weights_[pair.opens] -= opens;
+    weights_[pair.closes] -= opens * pair.ratio;
+  }
+}
+
 void FaceFit::close_lids(const Mask& mask, const FapValues& target,
                          const std::array<double, 2>& looks_down) {
+  // 1 where they meet, from 0 where they nearly do, so that the blink does not jump.
   const auto meet = [&](std::size_t side) {
-    return mask[19 + side] && mask[21 + side] && target[19 + side] + target[21 + side] >= kLidsMeet;
+    if (!mask[19 + side] || !mask[21 + side]) return 0.0;
+    const double closed = target[19 + side] + target[21 + side];
+    return std::clamp((closed - kLidsNearlyMeet) / (kLidsMeet - kLidsNearlyMeet), 0.0, 1.0);
   };
   for (std::size_t side = 0; side < 2; ++side) {
-    if (!meet(side)) continue;
     const double down = std::clamp(looks_down[side] / kLooksDown, 0.0, 1.0);
     for (const std::size_t i : blinks_[side]) {
       const bool both = std::find(blinks_[1 - side].begin(), blinks_[1 - side].end(), i) !=
                         blinks_[1 - side].end();
-      if (both && !meet(1 - side)) continue;
-      weights_[i] = std::max(weights_[i], 1 - kBlinkLookingDown * down);
+      const double closed = both ? std::min(meet(side), meet(1 - side)) : meet(side);
+      const double whole = std::max(weights_[i], 1 - kBlinkLookingDown * down);
+      weights_[i] += closed * (whole - weights_[i]);
     }
   }
 }
@@ -240,10 +267,11 @@ const std::vector<double>& FaceFit::fit(const Frame& frame, FapValues target,
   const Mask measured = sparse_ ? without_unmeasured(frame) : frame.mask;
   double certainty = 0;
   if (sparse_ && !only_lids(target)) {
-    made_weights_ = whole_.fit(frame.mask, target);
+    // Turns of the head, and a gaze beyond that of the shapes, say nothing of who made the rest.
+    made_weights_ = whole_.fit(frame.mask & moved_, target);
     certainty = whole_.certainty();
     if (certainty < 1 && measured != frame.mask) {
-      const std::vector<double>& again = whole_.fit(measured, target);
+      const std::vector<double>& again = whole_.fit(measured & moved_, target);
       if (whole_.certainty() > certainty) {
         made_weights_ = again;
         certainty = whole_.certainty();
@@ -267,6 +295,7 @@ const std::vector<double>& FaceFit::fit(const Frame& frame, FapValues target,
   }
   if (certainty < 1) part_opponents(certainty);
   close_lids(frame.mask, given, looks_down);
+  part_lids();
   return weights_;
 }
 

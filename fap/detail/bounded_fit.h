@@ -44,6 +44,8 @@ struct Sparsity {
   std::vector<double> least;
   /// Of these the one that does more is used alone.
   std::vector<Opponents> opponents;
+  /// Of opponents[i] the first one keeps what it has beside the second one, where that is left out.
+  std::vector<bool> keeps;
 };
 
 /// Low-level FAPs by number.
@@ -84,7 +86,8 @@ class BoundedFit {
   void descend(const std::vector<double>& wanted, double steadiness, double toll);
   void descend(double steadiness);
   double residual(const FapValues& target) const;
-  void choose_few(const std::vector<double>& wanted, double steadiness, double residual);
+  double choose_few(const std::vector<double>& wanted, double steadiness, double residual);
+  void part_keepers(std::vector<double>& wanted, double steadiness, double free);
   void close_lips(const std::vector<double>& wanted, const FapValues& target, double steadiness);
   void keep_within_limit(const std::vector<double>& wanted, double steadiness);
 

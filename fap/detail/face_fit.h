@@ -27,7 +27,7 @@ struct FaceFitOptions {
 ///    faces that are nearly made of them.
 ///    Without sparsity BoundedFit has all of them.
 /// 4. Lids that meet: the blink is (nearly) whole, since where lids stop at each other FAPs do not
-///    say how far it would go on.
+///    say how far it would go on. No lid is opened and closed at once.
 class FaceFit {
  public:
   /// `channels`: of ARKit, kWholeFace for moods, nullopt for others; may be empty.
@@ -51,12 +51,19 @@ class FaceFit {
   void part_opponents(double certainty);
   void close_lids(const Mask& mask, const FapValues& target,
                   const std::array<double, 2>& looks_down);
+  void part_lids();
   void take_off(std::size_t shape, double weight, FapValues& target) const;
 
   std::vector<std::vector<ShapeWeight>> shapes_;
   Group gaze_, lids_, others_, made_;  // made_: all but gaze_ and moods
   Group few_of_;  // others_, with lids_ if there are moods, which lids and brows tell from speech
+  struct OppositeLids {
+    std::size_t closes, opens;
+    double ratio;  // of the latter's effect to the former's
+  };
+  std::vector<OppositeLids> opposite_lids_;
   std::array<Group, 2> blinks_;    // that close the left and the right eye
+  Mask moved_;                     // what made_ moves
   ExactFit eyes_, upper_, whole_;  // of gaze_, lids_ and made_
   BoundedFit few_;                 // of few_of_
   std::vector<Opponents> opponents_;

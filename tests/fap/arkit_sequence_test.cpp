@@ -100,6 +100,74 @@ TEST(ArkitSequence, MadeSequencesComeBack) {
   }
 }
 
+// Whoever turns the head, or looks further to the side than the shapes go, has the same face.
+TEST(ArkitSequence, TurnsOfTheHeadSayNothingOfTheFace) {
+  ArkitFitter fitter;
+  const Sequence given = made(30);
+  Sequence found;
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    Frame frame = arkit_to_fap(given[i], kAllArkit);
+    for (int fap = kFirstLowLevel; fap <= kFapCount; ++fap) {
+      if (!frame.mask[std::size_t(fap)]) frame.set(fap, 0);
+    }
+    for (const int fap : {48, 49, 50}) frame.set(fap, int(20000 * std::sin(0.1 * double(i) + fap)));
+    for (const int fap : {23, 24}) frame.value[std::size_t(fap)] *= 3;
+    found.push_back(fitter.fit(frame));
+    for (const char* gaze :
+         {"eyeLookInLeft", "eyeLookOutLeft", "eyeLookInRight", "eyeLookOutRight"}) {
+      found.back()[channel(gaze)] = std::clamp(given[i][channel(gaze)], 0.0, 1.0);
+    }
+  }
+  const Difference difference = compare(given, found);
+  EXPECT_LT(difference.mean, 0.01);
+  EXPECT_LE(difference.frames_off, 0.02);
+}
+
+// A blink that comes and goes slowly does not jump where the lids meet.
+TEST(ArkitSequence, SlowBlinksLookingDownDoNotJump) {
+  Sequence given;
+  for (int i = 0; i <= 200; ++i) {
+    const double blink = 0.9 * bump(i, 0, 200);
+    given.push_back(weights_of({{"eyeBlinkLeft", blink},
+                                {"eyeBlinkRight", blink},
+                                {"eyeLookDownLeft", 0.45},
+                                {"eyeLookDownRight", 0.45},
+                                {"eyeSquintLeft", 0.15},
+                                {"eyeSquintRight", 0.15}}));
+  }
+  const Sequence found = fitted(given);
+  for (std::size_t i = 1; i < found.size(); ++i) {
+    const double step = found[i][channel("eyeBlinkLeft")] - found[i - 1][channel("eyeBlinkLeft")];
+    EXPECT_LE(std::abs(step), 0.1) << i;
+    EXPECT_LE(found[i][channel("eyeWideLeft")], 0.05) << i;
+  }
+  EXPECT_GE(found[100][channel("eyeBlinkLeft")], 0.84);
+}
+
+// Lips that go further forward than they are narrow are as round as if they could be stretched at
+// the same time.
+TEST(ArkitSequence, RoundLipsStayRoundWithoutStretching) {
+  ArkitFitter fitter;
+  double wanted = 0, rounded = 0;
+  for (int i = 0; i < 50; ++i) {
+    const double pucker = 0.3 + 0.005 * i;
+    Frame frame = arkit_to_fap(weights_of({{"mouthPucker", pucker},
+                                           {"mouthStretchLeft", 0.4 * pucker},
+                                           {"mouthStretchRight", 0.4 * pucker},
+                                           {"jawOpen", 0.1}}),
+                               kAllArkit);
+    std::mt19937 random{unsigned(i)};
+    for (const std::size_t fap : {4, 5, 8, 9, 10, 11, 51, 52, 55, 56, 57, 58, 12, 13}) {
+      frame.value[fap] += int(random() % 100) - 50;
+    }
+    const ArkitFrame found = fitter.fit(frame);
+    wanted += pucker;
+    rounded += found[channel("mouthPucker")];
+    EXPECT_LE(found[channel("mouthStretchLeft")], 0.05) << i;
+  }
+  EXPECT_NEAR(rounded / wanted, 1, 0.06);
+}
+
 // The eyes do not pop open after a blink.
 TEST(ArkitSequence, NoWideEyesAfterBlinks) {
   for (const double rate : {25.0, 30.0, 60.0}) {
