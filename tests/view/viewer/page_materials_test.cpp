@@ -5,6 +5,7 @@
 #include "tests/support/png_writer.h"
 #include "tests/view/viewer/page_support.h"
 #include "tools/view/render/scene.h"
+#include "tools/view/viewer/detail/bytes.h"
 
 namespace animeme::test {
 namespace page_materials_test {
@@ -77,6 +78,33 @@ const TestHead& head_with_material() {
     return out;
   }();
   return made;
+}
+
+// Until its textures are decoded, a head is not shown: it would be a white statue.
+TEST(PageMaterials, AreWaitedFor) {
+  NEEDS_BROWSER();
+  const TempDir dir;
+  const auto opacities = [&](const TestHead& h) {
+    const std::string html =
+        "<!doctype html><link rel=icon href='data:,'><canvas id=face style='width:200px'></canvas>"
+        "<script type=module>" +
+        std::string(viewer::head_script()) + "const bytes = fromBase64('" +
+        viewer::detail::base64(viewer::pack_head(h.head, h.rig)) +
+        "');\n"
+        "const canvas = document.getElementById('face');\n"
+        "const seen = () => getComputedStyle(canvas).opacity;\n"
+        "const view = new HeadView(canvas, readModel(bytes));\n"
+        "view.show({3: 100});\n"
+        "const before = seen();\n"
+        "await view.ready;\n"
+        "window.result = [before, seen(), String(view.camera.zoom)];</script>";
+    const Json report = report_of("live", html, dir);
+    EXPECT_EQ(said(report), std::vector<std::string>());
+    return report.value("result", std::vector<std::string>());
+  };
+  using ::testing::ElementsAre;
+  EXPECT_THAT(opacities(head_with_material()), ElementsAre("0", "1", "1"));
+  EXPECT_THAT(opacities(test_head()), ElementsAre("1", "1", "1"));
 }
 
 TEST(PageMaterials, LookAsTheRenderersDo) {

@@ -7,7 +7,6 @@ const normalised = (a) => a.map((x) => x / Math.hypot(...a));
 const sum = (...terms) => [0, 1, 2].map(
     (k) => terms.reduce((total, [vector, factor]) => total + vector[k] * factor, 0));
 
-const CLOSE = 1.08;  // the face is what people want to see
 const NARROW = 0.74;  // pictures narrower than this share of their height see more
 const STEEPEST = 80 * Math.PI / 180;
 
@@ -20,8 +19,8 @@ export class Camera {
     this.reset();
   }
 
-  /** Degrees to the person's left and up; zoom 1 shows head and shoulders. */
-  reset(left = 0, up = 0, zoom = CLOSE) {
+  /** Degrees to the person's left and up; zoom 1 shows head and shoulders, as pictures do. */
+  reset(left = 0, up = 0, zoom = 1) {
     this.left = left * Math.PI / 180;
     this.up = up * Math.PI / 180;
     this.zoom = zoom;

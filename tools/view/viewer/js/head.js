@@ -52,13 +52,24 @@ export class HeadView {
     Object.assign(this, this.kept.get(model));
     this.stale = this.rigs.map(() => true);
     this.hot = false;
+    this.wait();
+  }
+
+  // A head without its pictures is a white statue: it is not seen until they are there.
+  wait() {
+    const {materials} = this.renderer;
+    this.canvas.style.opacity = materials.complete ? '' : '0';
+    materials.ready.then(() => {
+      materials.complete = true;
+      if (this.renderer.materials === materials) this.canvas.style.opacity = '';
+    });
   }
 
   made(model) {
     const renderer = new Renderer(this.canvas, model, () => this.onNeed());
     const rigs = this.rigs && model === this.model && this.rigs[0].model === model ? this.rigs :
         Array.from({length: this.count}, () => new Rig(model));
-    // ready: its pictures are decoded; before, it has plain colours.
+    // ready: its pictures are decoded, and it is seen.
     return {renderer, rigs, meshes: rigs.map((rig) => renderer.load(rig)), ready: renderer.materials.ready};
   }
 

@@ -39,6 +39,8 @@ export class Materials {
         }));
       }
     }
+    /** Nothing to wait for. */
+    this.complete = waits.length === 0;
     /** All pictures are there, or cannot be shown: then their materials have plain colours. */
     this.ready = Promise.allSettled(waits);
   }
