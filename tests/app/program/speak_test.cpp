@@ -390,6 +390,9 @@ TEST(Speak, AStereoRecordingStaysStereo) {
     EXPECT_EQ(channels(dir / name), 2) << name;
     EXPECT_NEAR(left_power(dir / name) / power, 1, 0.2) << name;
   }
+  test::succeeds({"render", dir / "a.mp4", "--audio", dir / "voice.wav", "--size", "64x64", "-o",
+                  dir / "small.mp4"});
+  EXPECT_EQ(channels(dir / "small.mp4"), 2);
   // Coded sound can stay as it is.
   test::succeeds({"speak", "--script", script.string(), "--audio", dir / "a.mp4", "--audio-codec",
                   "copy", "-o", dir / "d.mp4"});

@@ -138,12 +138,16 @@ Result<std::vector<std::uint8_t>> draw(const Plan& plan,
   return studio::picture_of(*sheet, extension, studio::picture_quality(options.quality));
 }
 
+const std::string& sound_path(const RenderOptions& options) {
+  return options.audio.empty() ? options.input : options.audio;
+}
+
 // The sound of the video, copied where the file takes it; nothing where the face has none.
 Result<std::optional<speech::SoundInput>> sound_of(const RenderOptions& options) {
   const bool own = options.audio.empty();
   const bool only_opus = media::usual_codec(options.output) == media::AudioCodec::opus;
   Result<speech::SoundInput> sound = speech::read_sound(
-      own ? options.input : options.audio,
+      sound_path(options),
       [only_opus](media::AudioCodec codec) {
         return !only_opus || codec == media::AudioCodec::opus;
       },
@@ -177,7 +181,13 @@ Result<int> render_video(const RenderOptions& options, const Plan& plan) {
   const Result<std::optional<speech::SoundInput>> sound = sound_of(options);
   if (!sound) return sound.error();
   media::MuxInput tracks;
-  if (*sound) (*sound)->give_to(tracks);
+  std::error_code status;
+  if (*sound && (*sound)->samples &&
+      std::filesystem::is_regular_file(sound_path(options), status)) {
+    tracks.audio_file = &sound_path(options);  // with both of its channels
+  } else if (*sound) {
+    (*sound)->give_to(tracks);
+  }
   const auto texts = speech::carried_tracks(options.input, terminal_log());
   tracks.texts = &texts;
   return write_preview(options.output, *clip, tracks, preview);
