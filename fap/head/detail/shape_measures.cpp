@@ -93,12 +93,40 @@ fap::LipMeasures lip_measures(const Head& head, const Rig& rig) {
   return measures;
 }
 
+// A shape that is named after a FAP does what its maker made: as far as it moves the point, or
+// where that is not known any vertex, along the axis.
+void measure_single(const Head& head, const Rig& rig, std::size_t index, ShapeControl& shape) {
+  constexpr double kLeast = 30;  // units: less is hardly that FAP
+  if (shape.arkit || shape.viseme || shape.faps.mask.count() != 1) return;
+  int fap = fap::kFirstLowLevel;
+  while (fap < fap::kFapCount && !shape.faps.mask[std::size_t(fap)]) ++fap;
+  const fap::FapInfo& info = fap::info(fap);
+  const float unit = float(fap::step_size(fap, rig.fapu));
+  if (info.unit == fap::Unit::angle || info.feature_point.empty() || !(unit > 0)) return;
+  const fap::Point move = fap::move_of(fap).axis;
+  const Vec3 axis = {float(move[0]), float(move[1]), float(move[2])};
+  const FeaturePoint point = head.point(info.feature_point);
+  double units = 0;
+  for (const Target& target : rig.targets) {
+    if (target.control != kFirstShape + int(index)) continue;
+    if (point.exists()) {
+      units += double(dot(shift_of(target, point), axis) / unit);
+      continue;
+    }
+    for (const Vec3& delta : target.deltas) {
+      units = std::max(units, double(dot(delta, axis) * kFullShape / unit));
+    }
+  }
+  if (std::abs(units) >= kLeast) shape.faps.set(fap, std::int32_t(std::lround(units)));
+}
+
 std::vector<ShapeControl> measured_shapes(const Head& head, const Rig& rig) {
   static const std::optional<int> kJaw = fap::find_arkit("jawOpen");
   static const std::optional<int> kTongue = fap::find_arkit("tongueOut");
   std::vector<ShapeControl> shapes = head.shapes;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     if (shapes[i].arkit == kTongue) measure_tongue(rig, i, shapes[i].faps);
+    measure_single(head, rig, i, shapes[i]);
   }
   // Not by std::ranges, which Emscripten's library does not have.
   const bool arkit = std::any_of(shapes.begin(), shapes.end(),

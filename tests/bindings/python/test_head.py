@@ -78,3 +78,25 @@ def test_what_is_no_head_is_an_error(tmp_path, head):
             head.pose(wrong)
     with pytest.raises(TypeError):
         head.pose(random_clip(1), np.ones(68))
+
+
+def test_names_of_shapes(tmp_path):
+    """What shapes with other names mean: a dictionary, or a table in a file."""
+    me = tmp_path / "me.glb"
+    animeme.Head("child").save(animeme.Clip([np.zeros(68)]), me)
+    swapped = {"eyeBlinkLeft": "eyeBlinkRight", "eyeBlinkRight": "eyeBlinkLeft"}
+    table = tmp_path / "names.csv"
+    table.write_text("shape,meaning\n" + "".join(f"{a},{b}\n" for a, b in swapped.items()))
+
+    def side(names):
+        """Where FAP 19 moves most: above 0 is the person's left."""
+        head = animeme.Head(me, shape_names=names)
+        moved = np.linalg.norm(head.pose(fap("close_t_l_eyelid", 1024)) - head.vertices, axis=1)
+        return (moved * head.vertices[:, 0]).sum() / moved.sum()
+
+    assert side(None) > 1
+    assert side(swapped) < -1 and side(table) == side(swapped)
+    with pytest.raises(animeme.Error):
+        animeme.Head(me, shape_names={"jawOpen": "nothing known"})
+    with pytest.raises(animeme.Error):
+        animeme.Head(me, shape_names={"noSuchShape": "jawOpen"})

@@ -301,6 +301,22 @@ class Ends(unittest.TestCase):
             self.assertEqual(server.ask("/heads/anna")[0], 200)
             self.assertEqual(server.end()[0], 0)
 
+    def test_pages_show_the_heads_that_are_given(self):
+        with tempfile.TemporaryDirectory() as folder:
+            avatar, other = (os.path.join(folder, name) for name in ("me.glb", "you.glb"))
+            for name, path in [("child", avatar), ("man", other)]:
+                subprocess.run([PROGRAM, "head", name, "-o", path], check=True, capture_output=True)
+            server = Server(PROGRAM, "--head", avatar, "--head", other, "--shape-name", "jawOpen=-")
+            self.assertEqual(server.ask("/heads/a", "PUT", "{}")[0], 201)
+            _, info = server.ask("/heads/a/info.json")
+            self.assertEqual(json.loads(info)["heads"], ["me", "you"])
+            self.assertEqual(server.end()[0], 0)
+            for wrong in [["--head", "nobody.glb"], ["--head", avatar, "--shape-name", "jawOpen"],
+                          ["--head", avatar, "--shape-name", "noSuchShape=jawOpen"]]:
+                done = subprocess.run([PROGRAM, "serve", "--listen", "http://127.0.0.1:0/", *wrong],
+                                      capture_output=True, timeout=60)
+                self.assertIn(done.returncode, (2, 3), wrong)
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1], verbosity=2, warnings="ignore")

@@ -116,6 +116,56 @@ TEST(ObjFolder, MovesAsItsFilesDo) {
   EXPECT_GT(is, 0.1f);
 }
 
+fap::Frame frame_of(std::initializer_list<std::pair<int, int>> values) {
+  fap::Frame frame;
+  for (const auto& [fap, value] : values) frame.set(fap, value);
+  return frame;
+}
+
+float weight_of(const head::Rig& rig, const fap::Frame& frame, std::string_view name) {
+  const head::ControlValues values = head::control_values(rig, frame);
+  for (std::size_t i = 0; i < rig.shapes.size(); ++i) {
+    if (rig.shapes[i].name == name) return values[head::kFirstShape + i] / head::kFullShape;
+  }
+  return -1;
+}
+
+// Files may be called after FAPs, by name or number; what they do is measured.
+TEST(ObjFolder, FilesMayBeCalledAfterFaps) {
+  const TempDir dir;
+  fs::create_directories(dir / "face");
+  const auto write = [&](const std::string& name, const fap::Frame& frame) {
+    test::spill(dir / "face" + ("/" + name + ".obj"), obj_of(frame, name == "neutral"));
+  };
+  const fap::Frame open = face("jawOpen");
+  write("neutral", {});
+  write("open_jaw", open);
+  write("fap_53_stretch_l_cornerlip_o", frame_of({{6, 200}, {53, 200}}));
+  write("FAP54", frame_of({{7, 200}, {54, 200}}));
+  write("raise_l_cornerlip", frame_of({{12, 300}, {59, 300}}));
+  write("raise_r_cornerlip", frame_of({{13, 300}, {60, 300}}));
+  write("FAP19", frame_of({{19, 1024}}));
+  write("close_t_r_eyelid", frame_of({{20, 1024}}));
+  write("Fap33", frame_of({{33, 250}}));
+  write("head_pitch", frame_of({{33, 10}}));
+  auto file = read_obj_folder(dir / "face");
+  ASSERT_TRUE(file) << file.error().describe();
+  EXPECT_THAT(file->source.notes, Contains(HasSubstr("head_pitch")));
+  const auto head = head::assemble(std::move(file->source), nullptr);
+  ASSERT_TRUE(head) << head.error().describe();
+  EXPECT_EQ(head->shapes.size(), 8u);
+  const head::Rig rig = head::make_rig(*head);
+  // Its unit is that of a nose whose place is guessed by few shapes.
+  EXPECT_GT(opening(rig, open), 0.5f * opening(actor().rig, open));
+  EXPECT_GT(weight_of(rig, frame_of({{33, 250}}), "Fap33"), 0.6f);
+  const fap::Frame wink = frame_of({{19, 1024}});
+  EXPECT_GT(weight_of(rig, wink, "FAP19"), 0.9f);
+  EXPECT_LT(weight_of(rig, wink, "close_t_r_eyelid"), 0.1f);
+  EXPECT_LT(weight_of(rig, wink, "open_jaw"), 0.05f);
+  EXPECT_GT(weight_of(rig, frame_of({{12, 300}, {59, 300}}), "raise_l_cornerlip"), 0.6f);
+  EXPECT_GT(weight_of(rig, frame_of({{7, 200}, {54, 200}}), "FAP54"), 0.6f);
+}
+
 TEST(ObjFolder, PackedFilesAreTheSame) {
   const TempDir dir;
   write_folder(dir / "plain");

@@ -196,5 +196,22 @@ TEST(ShapeNames, MoodsAreShownAndKeepOutOfSpeech) {
   }
 }
 
+// FAPs by name and number, but the turns of the head and what only looks like one.
+TEST(ShapeNames, Faps) {
+  const std::pair<const char*, int> names[] = {
+      {"open_jaw", 3},      {"FAP3", 3},   {"fap_03_open_jaw", 3}, {"Mesh.raise_b_midlip", 5},
+      {"3_open_jaw", 3},    {"FAP68", 68}, {"yaw_l_eyeball", 23},  {"stretch_r_cornerlip_o", 54},
+      {"FAP2", 0},          {"FAP69", 0},  {"head_yaw", 0},        {"FAP49", 0},
+      {"fap4_open_jaw", 0}, {"fap", 0},    {"FAP99999999999", 0}};
+  for (const auto& [name, fap] : names) {
+    const auto meaning = meaning_of(name);
+    EXPECT_EQ(meaning ? meaning->fap : 0, fap) << name;
+    if (!meaning) continue;
+    EXPECT_EQ(meaning->faps.mask.count(), 1u) << name;
+    EXPECT_GT(meaning->faps.value[std::size_t(fap)], 0) << name;
+  }
+  EXPECT_EQ(meaning_of("jawOpen")->fap, 0);
+}
+
 }  // namespace shape_names_test
 }  // namespace animeme::gltf

@@ -10,8 +10,10 @@
 #include <sys/resource.h>
 
 #include "tools/app/commands/common.h"
+#include "tools/app/commands/head_options.h"
 #include "tools/app/commands/interrupt.h"
 #include "tools/app/commands/options.h"
+#include "tools/app/commands/shown_heads.h"
 #include "tools/app/commands/stream_options.h"
 #include "tools/formats/common/json.h"
 #include "tools/formats/common/text.h"
@@ -27,6 +29,7 @@ struct ServeOptions {
   std::string heads;                // file with heads that are there from the beginning
   std::string token_file;           // --token-file
   std::vector<std::string> models;  // --model, NAME=FILE
+  HeadChoices faces;                // --head and what belongs to it
   serve::ServerOptions server;      // all others
   bool stats = false;               // --stats
   bool json = false;                // --json
@@ -91,10 +94,12 @@ void add_options(OptionTable& cli, ServeOptions& options) {
       ->between(0, 64)
       ->show_default();
   add_server_web_options(cli, server.web);
+  add_heads_options(cli, options.faces.heads, options.faces.rest);
   cli.add("--stats", options.stats, "Print statistics once per second");
   cli.add("--json", options.json, "Print the address as JSON at the start, statistics at the end");
   cli.show_in_help_all("Server",
-                       "--threads --max-clients --max-per-address --allow-origin --host-name");
+                       "--threads --max-clients --max-per-address --allow-origin --host-name "
+                       "--points --shape-name --shape-names --gain");
 }
 
 constexpr std::size_t kMostToken = 400;  // bytes; headers of 512 are read
@@ -141,6 +146,9 @@ void show_figures(StatusLine& status, const serve::HeadServer& server) {
 
 Result<int> run(ServeOptions& options) {
   serve::ServerOptions& wanted = options.server;
+  if (const std::string problem = problem_of(options.faces); !problem.empty()) {
+    return usage_error(problem);
+  }
   Result<std::string> token = read_token(options.token_file);
   if (!token) return token.error();
   wanted.token = *token;
@@ -166,6 +174,11 @@ Result<int> run(ServeOptions& options) {
   }
   allow_many_files();
   voice::keep_voices();  // while this process is small
+  const studio::HeadChoice& rest = options.faces.rest;
+  if (!options.faces.heads.empty() || rest.names_shapes() || !rest.points.empty() ||
+      rest.gain != "1") {
+    if (auto given = give_heads(options.faces, wanted.web); !given) return given.error();
+  }
   wanted.web = live::with_head(wanted.web);
   const Interrupt interrupt;
   auto server = serve::HeadServer::open(wanted, heads);
@@ -204,6 +217,7 @@ const Command kServe{
     "  curl http://127.0.0.1:8080/heads                 # how all of them are; also /metrics, "
     "/health\n"
     "  curl -X DELETE http://127.0.0.1:8080/heads/anna\n"
+    "  animeme serve --head me.glb --gain auto          # pages show your avatar\n"
     "SIGTERM ends it in good order, exit code 0, Ctrl-C with 130: viewers are told.",
     set_up<ServeOptions>};
 

@@ -42,11 +42,19 @@ void write_pose(const Head& self, const head::Pose& pose, float* out) {
 }
 
 std::unique_ptr<Head> make_head(const py::object& name, const py::object& points,
-                                const py::object& gain) {
+                                const py::object& gain, const py::object& shape_names) {
   studio::HeadChoice choice;
   choice.head = path_of(name);
   if (!points.is_none()) choice.points = path_of(points);
   choice.gain = py::str(gain);
+  if (py::isinstance<py::dict>(shape_names)) {
+    for (const auto& [shape, meaning] : shape_names.cast<py::dict>()) {
+      choice.shape_names.push_back(std::string(py::str(shape)) + "=" +
+                                   std::string(py::str(meaning)));
+    }
+  } else if (!shape_names.is_none()) {
+    choice.shape_table = path_of(shape_names);
+  }
   auto self = std::make_unique<Head>();
   auto loaded = unlocked([&] { return studio::load_head(choice); });
   if (!loaded) raise(loaded.error());
@@ -160,11 +168,15 @@ void bind_head(py::module_& module) {
 Lengths are cm, +X to the person's left, +Y up, +Z forward; the origin is between the eyes at the
 depth of the ears. The vertices of all parts are consecutive, see `parts`.)")
       .def(py::init(&make_head), py::arg("name") = "woman", py::kw_only(),
-           py::arg("points") = py::none(), py::arg("gain") = 1, R"(Makes or reads a head.
+           py::arg("points") = py::none(), py::arg("gain") = 1, py::arg("shape_names") = py::none(),
+           R"(Makes or reads a head.
 
-name: "woman", "man", "child", or a file: .glb .gltf .vrm .obj .fdp .xmt.
+name: "woman", "man", "child", or a file: .glb .gltf .vrm .obj .fdp .xmt, or a folder with
+neutral.obj and one .obj for each shape.
 points: for heads without shapes: a file with the feature points.
 gain: factor for the lip opening, or "auto".
+shape_names: what morph targets with other names mean: {"Mund_auf": "jawOpen"}, a viseme
+("viseme_PP"), a FAP ("open_jaw"), or "-" to leave it at rest; or a file with such a table.
 
 Raises Error with position.file.)")
       .def("pose", &pose, py::arg("values"), py::arg("mask") = py::none(), py::kw_only(),

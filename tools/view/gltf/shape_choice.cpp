@@ -60,6 +60,16 @@ bool bends_visemes(const ShapeMeaning& meaning) {
   });
 }
 
+// Shapes named after FAPs that open the mouth.
+bool has_fap_mouth(const std::vector<ChosenShape>& shapes) {
+  bool jaw = false, lip = false;
+  for (const ChosenShape& shape : shapes) {
+    jaw = jaw || shape.meaning.fap == 3;
+    lip = lip || shape.meaning.fap == 5;
+  }
+  return jaw && lip;
+}
+
 bool has_arkit_mouth(const std::vector<ChosenShape>& shapes) {
   int mouth = 0;
   bool jaw = false;
@@ -72,10 +82,10 @@ bool has_arkit_mouth(const std::vector<ChosenShape>& shapes) {
   return jaw && mouth >= int(kMouthShapes);
 }
 
-using MeaningKey = std::tuple<int, int, std::vector<ArkitPart>>;
+using MeaningKey = std::tuple<int, int, int, std::vector<ArkitPart>>;
 
 MeaningKey key_of(const ShapeMeaning& meaning) {
-  return {meaning.viseme, meaning.mood, meaning.parts};
+  return {meaning.viseme, meaning.mood, meaning.fap, meaning.parts};
 }
 
 // Which convention a name follows: those of this file by their set, other houses by name.
@@ -159,7 +169,7 @@ void drop_doubles(std::vector<ChosenShape>& shapes, std::vector<std::string>& un
   const auto take = [&](ShapeSet set, std::size_t parts, bool given = false) {
     for (std::size_t i = 0; i < shapes.size(); ++i) {
       const ShapeMeaning& meaning = shapes[i].meaning;
-      if (meaning.mood > 0) keep[i] = true;
+      if (meaning.mood > 0 || meaning.fap > 0) keep[i] = true;
       if (keep[i] || meaning.set != set || (parts > 0 && meaning.parts.size() != parts)) continue;
       if (given && !is_given(meaning)) continue;
       keep[i] = free(meaning);
@@ -234,8 +244,11 @@ std::vector<ChosenShape> choose_shapes(const std::vector<std::string>& names, Mo
     });
   };
   // ARKit's shapes make any of these faces.
-  if (arkit) move_out([](const ShapeMeaning& meaning) { return meaning.mood > 0; });
-  if (any_viseme && arkit) {
+  if (arkit) {
+    move_out([](const ShapeMeaning& meaning) { return meaning.mood > 0 || meaning.fap > 0; });
+  }
+  const bool by_fap = has_fap_mouth(shapes);
+  if (any_viseme && (arkit || by_fap)) {
     // They show FAP 1; lips that are coded one by one are better followed by ARKit's.
     for (ChosenShape& shape : shapes) {
       if (shape.meaning.set == ShapeSet::viseme) shape.meaning.faps = {};
@@ -243,7 +256,7 @@ std::vector<ChosenShape> choose_shapes(const std::vector<std::string>& names, Mo
   } else if (any_viseme && mouth == MouthShapes::visemes) {
     move_out([](const ShapeMeaning& meaning) { return is_mouth(meaning) && !is_mood(meaning); });
   }
-  if (any_viseme && !arkit) move_out(bends_visemes);
+  if (any_viseme && !arkit && !by_fap) move_out(bends_visemes);
   drop_doubles(shapes, unused);
   // Silence is what is left when nothing else is shown.
   std::erase_if(shapes, [](const ChosenShape& shape) { return shape.meaning.viseme == 0; });

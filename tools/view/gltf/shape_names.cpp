@@ -216,6 +216,41 @@ fap::Frame faps_of(const std::vector<ArkitPart>& parts) {
   return sum;
 }
 
+// "openjaw", "fap3", "fap03openjaw": 0 if it is none, or turns the head, which no shape does.
+int fap_of(std::string_view key) {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all(fap::kFapCount + 1);
+    for (int f = fap::kFirstLowLevel; f <= fap::kFapCount; ++f) {
+      all[std::size_t(f)] = joined(words_of(fap::info(f).name));
+    }
+    return all;
+  }();
+  int number = 0;
+  if (key.starts_with("fap")) {
+    key.remove_prefix(3);
+    std::size_t digits = 0;
+    for (; digits < key.size() && key[digits] >= '0' && key[digits] <= '9'; ++digits) {
+      number = std::min(10 * number + (key[digits] - '0'), fap::kFapCount + 1);
+    }
+    key.remove_prefix(digits);
+  }
+  if (!key.empty()) {
+    const auto found = std::find(names.begin() + fap::kFirstLowLevel, names.end(), key);
+    const int named = found == names.end() ? 0 : int(found - names.begin());
+    if (number != 0 && named != number) return 0;
+    number = named;
+  }
+  const bool turns_head = number >= 48 && number <= 50;
+  return number < fap::kFirstLowLevel || number > fap::kFapCount || turns_head ? 0 : number;
+}
+
+fap::Frame face_of_fap(int number) {
+  constexpr int kTwentyDegrees = 34907;  // units of an angle
+  fap::Frame face;
+  face.set(number, fap::info(number).unit == fap::Unit::angle ? kTwentyDegrees : 1024);
+  return face;
+}
+
 }  // namespace
 
 std::optional<ShapeMeaning> meaning_of(std::string_view name) {
@@ -244,6 +279,12 @@ std::optional<ShapeMeaning> meaning_of(std::string_view name) {
     if (meaning.parts.empty() && meaning.viseme < 0) {
       meaning.set = ShapeSet::other;
       meaning.mood = mood_of(key);
+      meaning.fap = meaning.mood == 0 ? fap_of(key) : 0;
+      if (meaning.fap != 0) {
+        meaning.house = "faps";
+        meaning.faps = face_of_fap(meaning.fap);
+        return meaning;
+      }
       if (meaning.mood == 0) continue;
       meaning.faps = meaning.mood == kCalmSmile ? faps_of(other_parts("smile"))
                                                 : head::expression_shape(meaning.mood);

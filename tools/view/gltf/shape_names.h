@@ -34,10 +34,12 @@ struct ShapeMeaning {
   ShapeSet set = ShapeSet::other;  ///< naming convention
   int viseme = -1;                 ///< of a viseme
   int mood = 0;                    ///< of a whole face: expression 1..6 of FAP 2; 7: a calm smile
+  int fap = 0;                     ///< of a single FAP, 3..68; 0: of none
   std::vector<ArkitPart> parts;    ///< of the others, ascending
   std::string_view house = {};     ///< a convention beside ARKit's; see detail/house_names.h
-  /// At weight 1: the sum of fap::arkit_to_fap() of the parts; for a viseme head::viseme_shape(),
-  /// so that FAP 1 at full strength is weight 1.
+  /// At weight 1: of a single FAP 1024 units, 20 degrees of an eye (make_rig() measures what the
+  /// shape does, where the feature point is known); else the sum of fap::arkit_to_fap() of the
+  /// parts; for a viseme head::viseme_shape(), so that FAP 1 at full strength is weight 1.
   fap::Frame faps;
 };
 
@@ -50,7 +52,9 @@ struct ShapeMeaning {
 /// VRoid (BRW_Angry ...) and MMD; the vowels A I U E O of VRM, VRoid and MMD are visemes; joy,
 /// angry, sorrow, fun, surprised of VRM 0.x and VRoid (ALL_Joy ...), happy, sad and relaxed of VRM
 /// 1.0 are moods. Names of Character Creator, Unified Expressions, SRanipal, Faceshift, Daz,
-/// Autodesk's Character Generator (VALID) and MakeHuman: detail/house_names.h. What stands before
+/// Autodesk's Character Generator (VALID) and MakeHuman: detail/house_names.h. FAPs by name or
+/// number
+/// ("open_jaw", "FAP3", "fap_03_open_jaw"), but those of the head's turns. What stands before
 /// the name proper may be any words that end in ".", ":", "|" or "__".
 std::optional<ShapeMeaning> meaning_of(std::string_view name);
 

@@ -2,7 +2,8 @@
 # docstrings: help(animeme.Clip).
 import os
 from fractions import Fraction
-from typing import Any, Callable, Iterable, Iterator, Literal, NamedTuple, Optional, Sequence, Union, overload
+from typing import Any, Callable, Iterable, Iterator, Literal, Mapping, NamedTuple
+from typing import Optional, Sequence, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -336,7 +337,12 @@ class Evaluation:
 
 class Head:
     def __init__(
-        self, name: _Path = "woman", *, points: Optional[_Path] = None, gain: Union[float, str] = 1
+        self,
+        name: _Path = "woman",
+        *,
+        points: Optional[_Path] = None,
+        gain: Union[float, str] = 1,
+        shape_names: Union[Mapping[str, str], _Path, None] = None,
     ) -> None: ...
     def pose(
         self,
