@@ -400,6 +400,17 @@ TEST(Speak, AStereoRecordingStaysStereo) {
   test::succeeds({"demux", dir / "a.mp4", "--audio", dir / "a.m4a"});
   test::succeeds({"demux", dir / "d.mp4", "--audio", dir / "d.m4a"});
   EXPECT_EQ(test::slurp(dir / "a.m4a"), test::slurp(dir / "d.m4a"));
+  // What is damaged is told once, however often the recording is read.
+  std::string damaged = test::slurp(dir / "a.m4a");
+  const std::size_t middle = damaged.find("mdat") + 2000;
+  for (std::size_t i = middle; i < middle + 500; ++i) damaged[i] = char(damaged[i] ^ 0x5A);
+  test::spill(dir / "damaged.m4a", damaged);
+  const auto told = animeme({"speak", "--script", script.string(), "--audio", dir / "damaged.m4a",
+                             "-o", dir / "f.mp4", "-o", dir / "f.mkv"});
+  ASSERT_EQ(told.exit_code, 0) << told.err;
+  const std::size_t at = told.err.find("damaged audio packets");
+  EXPECT_NE(at, std::string::npos) << told.err;
+  EXPECT_EQ(told.err.find("damaged audio packets", at + 1), std::string::npos) << told.err;
   const auto plain = animeme({"speak", "--script", script.string(), "--audio", dir / "voice.wav",
                               "--audio-codec", "copy", "-o", dir / "e.mp4"});
   EXPECT_EQ(plain.exit_code, 3);

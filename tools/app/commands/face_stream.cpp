@@ -122,7 +122,7 @@ std::string summary(const media::MuxInput& input, const media::MuxOptions& optio
 }  // namespace
 
 Result<int> write_media(const std::string& path, const media::MuxInput& input,
-                        media::MuxOptions options) {
+                        media::MuxOptions options, bool known_sound) {
   AtStep step(Step::muxing);
   const Interrupt interrupt;
   ProgressLine progress("writing " + path);
@@ -132,7 +132,9 @@ Result<int> write_media(const std::string& path, const media::MuxInput& input,
   options.warnings = &odd;
   Result<media::MuxResult> written = media::write_container(path, input, options);
   progress.clear();
-  for (const std::string& text : odd) warn(*input.audio_file + ": " + text);
+  for (const std::string& text : odd) {
+    if (!known_sound) warn(*input.audio_file + ": " + text);
+  }
   if (!written) return written.error().in_file(path);
   if (written->stopped) {
     say(path + ": stopped; the file holds the first " + seconds_text(written->seconds));

@@ -54,8 +54,9 @@ bool shows_captions(const std::string& output, bool subtitles);
 media::AudioSettings audio_settings(const SoundSettings& settings, const std::string& path);
 
 /// Writes a container with progress and says what was written. Ctrl-C completes what was written
-/// so far: the exit code is kInterrupted then.
+/// so far: the exit code is kInterrupted then. `known_sound`: what is wrong with the sound file was
+/// reported before.
 Result<int> write_media(const std::string& path, const media::MuxInput& input,
-                        media::MuxOptions options);
+                        media::MuxOptions options, bool known_sound = false);
 
 }  // namespace animeme::tools

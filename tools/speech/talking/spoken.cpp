@@ -76,7 +76,7 @@ Result<Spoken> align_voice(const SpokenOptions& options, const tools::Log& log) 
       options.audio, text_to_say(options.transcript, options.script_reading.speak_marks, log),
       settings, log);
   if (!aligned) return aligned.error();
-  Result<media::Pcm> audio = read_voice(options.audio, log);
+  Result<media::Pcm> audio = read_voice(options.audio);  // its damage is reported already
   if (!audio) return audio.error();
   dam::Script script = std::exchange(aligned->script, {});
   Spoken spoken{std::move(script),    std::move(*audio),   {},
@@ -91,7 +91,7 @@ Result<Spoken> hear_voice(const SpokenOptions& options, const tools::Log& log) {
   settings.progress = options.heard;
   Result<voice::Recognition> heard = listen_to_file(options.audio, settings, log);
   if (!heard) return heard.error();
-  Result<media::Pcm> audio = read_voice(options.audio, log);
+  Result<media::Pcm> audio = read_voice(options.audio);  // its damage is reported already
   if (!audio) return audio.error();
   dam::Script script = heard->script;
   Spoken spoken{std::move(script), std::move(*audio), {}, TimesFrom::sound, {}, std::move(*heard)};
