@@ -47,7 +47,8 @@ constexpr std::string_view kKeepsRound = "mouthPucker", kSpreads = "mouthStretch
 constexpr std::string_view kSeldom[] = {"mouthFrown",  "mouthLeft",  "mouthRight", "jawLeft",
                                         "jawRight",    "jawForward", "cheekPuff",  "mouthShrug",
                                         "mouthDimple", "noseSneer",  "cheekSquint"};
-constexpr double kLeast = 0.02;  // of Sparsity: 0.2 mm
+constexpr double kLeast = 0.02;      // of Sparsity: 0.2 mm
+constexpr double kHardlyAny = 1e-6;  // likewise, for shapes that have an opponent
 constexpr double kLeastOfSeldom = 0.15;
 constexpr double kLeastOfMoods = 0.6;  // pressed lips alone are no anger
 
@@ -65,8 +66,14 @@ struct ByChannel {
   int jaw = channel_of("jawOpen");
   std::array<double, kArkitChannelCount> least = {};
   std::vector<std::pair<int, int>> opponents;
-  std::vector<bool> keeps;
+  std::vector<bool> keeps, always;
 };
+
+// Those that undo each other whatever opens the mouth.
+bool is_always(std::string_view one, std::string_view other) {
+  return other.starts_with(kSpreads) || one == "jawLeft" || one == "mouthLeft" ||
+         one.starts_with("mouthSmile") || one.starts_with("eyeBlink");
+}
 
 const ByChannel& by_channel() {
   static const ByChannel all = [] {
@@ -75,6 +82,7 @@ const ByChannel& by_channel() {
     for (const auto& [one, other] : kOpponents) {
       made.opponents.emplace_back(channel_of(one), channel_of(other));
       made.keeps.push_back(one == kKeepsRound && other.starts_with(kSpreads));
+      made.always.push_back(is_always(one, other));
     }
     return made;
   }();
@@ -101,7 +109,10 @@ Sparsity sparsity_of(std::span<const std::optional<int>> channels, double share)
   }
   for (std::size_t i = 0; i < names.opponents.size(); ++i) {
     const std::size_t a = place(names.opponents[i].first), b = place(names.opponents[i].second);
-    if (!jaw || std::max(a, b) >= channels.size()) continue;
+    if (std::max(a, b) >= channels.size() || (!jaw && !names.always[i])) continue;
+    for (const std::size_t shape : {a, b}) {
+      sparsity.least[shape] = std::max(sparsity.least[shape], share * kHardlyAny);
+    }
     sparsity.opponents.push_back({a, b});
     sparsity.keeps.push_back(names.keeps[i]);
   }

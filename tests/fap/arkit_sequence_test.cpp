@@ -1,6 +1,7 @@
 // Sequences of ARKit's weights through FAPs: they come back in time, frame after frame.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -9,6 +10,8 @@
 #include <string>
 
 #include "fap/arkit.h"
+#include "fap/shape_fit.h"
+#include "fap/viseme.h"
 #include "tests/support/shared.h"
 
 namespace animeme::fap {
@@ -262,6 +265,45 @@ TEST(ArkitSequence, OppositesAreNotTogether) {
     for (const auto& [one, other] : pairs) {
       EXPECT_LE(std::min(found[channel(one)], found[channel(other)]), 0.05)
           << one << " and " << other << " in frame " << i;
+    }
+  }
+}
+
+// Nor are they on heads that visemes open, without ARKit's jaw.
+TEST(ArkitSequence, OppositesAreNotTogetherWithoutAJaw) {
+  const std::pair<const char*, const char*> pairs[] = {{"mouthLeft", "mouthRight"},
+                                                       {"mouthSmileLeft", "mouthFrownLeft"},
+                                                       {"mouthSmileRight", "mouthFrownRight"},
+                                                       {"mouthPucker", "mouthStretchLeft"},
+                                                       {"mouthPucker", "mouthStretchRight"}};
+  std::vector<Frame> shapes;
+  std::vector<std::optional<int>> channels;
+  for (std::size_t c = channel("mouthClose"); c <= channel("mouthUpperUpRight"); ++c) {
+    ArkitFrame one{};
+    one[c] = 1;
+    shapes.push_back(arkit_to_fap(one, kAllArkit));
+    channels.emplace_back(int(c));
+  }
+  for (int viseme = 1; viseme < kVisemeCount; ++viseme) {
+    shapes.push_back(viseme_shape(viseme));
+    channels.emplace_back(std::nullopt);
+  }
+  ShapeFitter fitter(shapes, {}, 0.001, channels);
+  const auto place = [&](const char* name) {
+    return std::size_t(std::find(channels.begin(), channels.end(), int(channel(name))) -
+                       channels.begin());
+  };
+  std::mt19937 random(7);
+  for (int i = 0; i < 200; ++i) {
+    Frame frame = arkit_to_fap(weights_of({{"jawOpen", 0.2 + 0.2 * std::sin(0.6 * i)},
+                                           {"mouthPucker", std::abs(0.5 * std::sin(0.36 * i))}}),
+                               kAllArkit);
+    for (const std::size_t fap : {4, 5, 8, 9, 10, 11, 51, 52, 55, 56, 57, 58, 12, 13, 6, 7}) {
+      frame.value[fap] += int(random() % 160) - 80;
+    }
+    const std::vector<double>& found = fitter.fit(frame);
+    for (const auto& [one, other] : pairs) {
+      EXPECT_LE(std::min(found[place(one)], found[place(other)]), 0.05) << one << " " << i;
     }
   }
 }

@@ -157,6 +157,12 @@ TEST(HeadCommand, PhonesOfAFileAreShownByOwnVisemes) {
   // The name of the animation is that of the file without its ending.
   EXPECT_TRUE(exported("s.fba", {}) == by_faps);
   EXPECT_TRUE(exported("s.fba", {"--script", dir / "s.tsv"}) == by_visemes);
+  // So is FAP 1 of a stream.
+  ASSERT_EQ(
+      animeme({"speak", "--script", dir / "s.tsv", "--visemes", "instead", "-o", dir / "one.fba"})
+          .exit_code,
+      0);
+  EXPECT_TRUE(exported("one.fba", {}) != exported("one.fba", {"--mouth", "faps"}));
   const auto drawn = [&](const std::string& mouth) {
     EXPECT_EQ(animeme({"render", dir / "s.mp4", "--head", head, "--time", "0.56", "--size", "64x64",
                        "--zoom", "3", "--mouth", mouth, "-o", dir / "f.png"})
