@@ -1,0 +1,400 @@
+#include "codec/encode/splice.h"
+
+#include <algorithm>
+#include <array>
+#include <bitset>
+#include <functional>
+#include <optional>
+#include <utility>
+
+#include "codec/encode/plane_levels_internal.h"
+#include "codec/syntax/quantise_internal.h"
+#include "codec/syntax/settings_internal.h"
+#include "codec/syntax/state_internal.h"
+
+namespace animeme::fba {
+namespace {
+
+constexpr int kMostDetours = 40;  // around hazards, by other ranges
+
+int quant_of(const FaceSettings& settings) { return settings.fap_quant; }
+int quant_of(const BodySettings& settings) { return settings.bap_quant; }
+
+// The FAP that receivers derive another one from, if it is not coded: mask type 2. 0: they hold it.
+int derived_from(const FaceSettings& settings, const fap::Mask& coded, int fap) {
+  const fap::FapInfo& info = fap::info(fap);
+  if (settings.mask_type[std::size_t(info.group) - 1] != MaskType::interpolate) return 0;
+  const int other_side = info.partner != 0 ? fap::info(info.partner).mirror : 0;
+  for (const int from : {info.mirror, info.partner, other_side}) {
+    if (coded[std::size_t(from)]) return from;
+  }
+  return 0;
+}
+
+// Groups of which nothing was coded.
+void complete_types(FaceSettings& settings) {
+  for (std::size_t group = 0; group < fap::kGroupCount; ++group) {
+    const fap::GroupInfo& info = fap::kGroups[group];
+    for (int i = 0; i < info.size; ++i) {
+      const bool coded = settings.mask[std::size_t(info.first + i)];
+      MaskType& type = settings.mask_type[group];
+      if (coded && type == MaskType::none) type = MaskType::hold;
+    }
+  }
+}
+void complete_types(BodySettings& settings) {
+  internal::guard_last_group(settings.mask);
+  internal::set_mask_types(settings);
+}
+
+template <class Settings>
+bool sends_all_ranges(const Settings& settings) {
+  return std::ranges::all_of(settings.send_range, std::identity());
+}
+
+// What the planes of a source so far have left behind in one family, face or body.
+template <class Settings>
+struct Coded {
+  explicit Coded(const internal::SlotTable& table) : coding(table) {}
+
+  std::optional<Settings> settings;  // of the last intra plane
+  internal::SlotCoding coding;       // with the ranges in force, sent or not
+
+  void begin(const Settings& next) {
+    const internal::SlotCoding before = coding;
+    internal::apply_settings(before, next, coding);
+    settings = next;
+  }
+};
+
+// What receivers show: the values that were coded last, and those that they derive.
+struct Shown {
+  fap::Frame face;
+  BodyFrame body;
+
+  void take_in(const fap::Frame& frame, const FaceSettings& settings) {
+    face.mask |= frame.mask;
+    for (std::size_t fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
+      if (frame.mask[fap]) face.value[fap] = frame.value[fap];
+    }
+    if (frame.mask[1]) face.viseme = frame.viseme;
+    if (frame.mask[2]) face.expression = frame.expression;
+    for (int fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
+      if (frame.mask[std::size_t(fap)]) continue;
+      const int from = derived_from(settings, frame.mask, fap);
+      if (from != 0) face.value[std::size_t(fap)] = frame.value[std::size_t(from)];
+    }
+  }
+  void take_in(const BodyFrame& frame) {
+    body.mask |= frame.mask;
+    for (std::size_t bap = 1; bap <= std::size_t(kBapCount); ++bap) {
+      if (frame.mask[bap]) body.value[bap] = frame.value[bap];
+    }
+  }
+};
+
+// What was coded with another quantiser becomes the nearest that this one can code.
+void hold_levels(fap::Frame& face, int fap_quant) {
+  const std::int32_t step = fap_scale(fap_quant);
+  for (std::int32_t* value :
+       {&face.viseme.blend, &face.expression.intensity1, &face.expression.intensity2}) {
+    const std::int64_t level = internal::quantise(*value, step);
+    *value = step * std::int32_t(std::min<std::int64_t>(level, blend_range(fap_quant)));
+  }
+}
+
+bool same_look(const fap::Viseme& a, const fap::Viseme& b) {
+  return a.select1 == b.select1 && a.select2 == b.select2 && a.blend == b.blend;
+}
+bool same_look(const fap::Expression& a, const fap::Expression& b) {
+  return a.select1 == b.select1 && a.select2 == b.select2 && a.intensity1 == b.intensity1 &&
+         a.intensity2 == b.intensity2;
+}
+
+}  // namespace
+
+struct Splicer::Impl {
+  // The decoder of a source.
+  struct Source {
+    Coded<FaceSettings> face{internal::face_slots()};
+    Coded<BodySettings> body{internal::body_slots()};
+    Shown shown;
+    Plane last;
+  };
+
+  // What the encoder has in common with the encoder of the source.
+  enum class State : std::uint8_t {
+    nothing,  // behind a cut: its next plane has to be an intra plane
+    values,   // but not the models
+    all,
+  };
+
+  StreamOptions options;
+  Encoder encoder;
+  Source source;
+  State state = State::all;
+  bool cut = false;       // the time codes of the sources are wrong
+  Shown out;              // what receivers have
+  fap::Rate rate{30, 1};  // likewise
+  FaceSettings face;      // of the intra plane in force
+  BodySettings body;
+  SpliceReport report;
+  std::vector<std::uint8_t> bytes, taken;
+
+  explicit Impl(const StreamOptions& given) : options(given), encoder(given) {}
+
+  void see(const Plane& plane) {
+    source.last = plane;
+    if (has_face(plane.object_mask)) {
+      if (plane.intra) source.face.begin(*plane.face_settings);
+      fap::Frame& shown = source.shown.face;  // flags are events, they are not held
+      shown.viseme.def = shown.expression.def = shown.expression.init_face = false;
+      source.shown.take_in(plane.face, *source.face.settings);
+    }
+    if (plane.body) {
+      if (plane.intra) source.body.begin(*plane.body_settings);
+      source.shown.take_in(*plane.body);
+    }
+  }
+
+  // The parameters that these settings do not code and that receivers would show otherwise than the
+  // source does: those that the source holds itself, those of a source before it, which rest here,
+  // and those that would be derived from them.
+  fap::Mask stale(const FaceSettings& settings) const {
+    fap::Mask coded = settings.mask;
+    coded[1] = coded[1] || !same_look(source.shown.face.viseme, out.face.viseme);
+    coded[2] = coded[2] || !same_look(source.shown.face.expression, out.face.expression);
+    fap::Mask before;
+    do {
+      before = coded;
+      for (int fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
+        const int from = derived_from(settings, coded, fap);
+        const std::int32_t value = from != 0 ? source.shown.face.value[std::size_t(from)]
+                                             : out.face.value[std::size_t(fap)];
+        if (value != source.shown.face.value[std::size_t(fap)]) coded.set(std::size_t(fap));
+      }
+    } while (before != coded);
+    return coded & ~settings.mask;
+  }
+  std::bitset<kBapCount + 1> stale(const BodySettings& settings) const {
+    std::bitset<kBapCount + 1> baps;
+    for (std::size_t bap = 1; bap <= std::size_t(kBapCount); ++bap) {
+      baps[bap] = !settings.mask[bap] && source.shown.body.value[bap] != out.body.value[bap];
+    }
+    return baps;
+  }
+
+  // Whether an intra plane, as it is, makes everything as in the source.
+  bool is_complete(const Plane& plane) const {
+    return is_complete(source.face.settings, has_face(plane.object_mask)) &&
+           is_complete(source.body.settings, has_body(plane.object_mask));
+  }
+  template <class Settings>
+  bool is_complete(const std::optional<Settings>& settings, bool in_plane) const {
+    if (!settings) return true;
+    const bool known = in_plane ? sends_all_ranges(*settings) : state == State::values;
+    return known && stale(*settings).none();
+  }
+
+  Result<void> copy(const Plane& plane, std::optional<std::uint32_t> skip) {
+    if (!plane.intra && ((has_face(plane.object_mask) && !source.face.settings) ||
+                         (has_body(plane.object_mask) && !source.body.settings))) {
+      return internal::invalid("a predictive plane needs an intra plane of its kind before it");
+    }
+    see(plane);
+    return write(skip);
+  }
+
+  // The last plane of the source.
+  Result<void> write(std::optional<std::uint32_t> skip) {
+    const Plane& plane = source.last;
+    // Without a face, or a body, the source shows none that moves.
+    if (!source.face.settings && out.face.mask.any()) source.face.begin(FaceSettings());
+    if (!source.body.settings && out.body.mask.any()) source.body.begin(BodySettings());
+    const bool as_it_is = state == State::all || (plane.intra && is_complete(plane));
+    if (as_it_is) {
+      if (auto ok = put(verbatim(plane, skip)); !ok) return ok;
+      state = State::all;
+    } else if (state == State::nothing || plane.intra || !write_predictive(plane, skip)) {
+      if (auto ok = write_intra(plane, skip); !ok) return ok;
+      state = State::values;
+    }
+    rate = plane.rate;  // an intra plane has sent it
+    if (!as_it_is) ++report.recoded;
+    ++report.planes;
+    keep(plane);
+    return {};
+  }
+
+  PlaneInput input(ObjectMask mask, std::optional<std::uint32_t> skip) const {
+    PlaneInput input;
+    input.object_mask = mask;
+    input.temporal.skip = skip;
+    input.face = &source.shown.face;
+    input.body = &source.shown.body;
+    input.face_settings = &face;
+    input.body_settings = &body;
+    return input;
+  }
+
+  PlaneInput verbatim(const Plane& plane, std::optional<std::uint32_t> skip) {
+    if (plane.intra && plane.face_settings) face = *plane.face_settings;
+    if (plane.intra && plane.body_settings) body = *plane.body_settings;
+    PlaneInput plain = input(plane.object_mask, skip);
+    plain.intra = plane.intra;
+    plain.temporal.rate = plane.temporal.rate;
+    if (plane.intra && !plane.temporal.rate && plane.rate != rate) {
+      plain.temporal.rate = code_rate(plane.rate);
+    }
+    if (!cut) plain.temporal.time_code = plane.temporal.time_code;
+    return plain;
+  }
+
+  Result<void> put(const PlaneInput& plane) {
+    auto ok = encoder.write(plane);
+    if (ok && options.plane_start_codes == PlaneStartCodes::all) encoder.end_unit();
+    return ok;
+  }
+
+  bool write_predictive(const Plane& plane, std::optional<std::uint32_t> skip) {
+    if (!put(input(plane.object_mask, skip))) return false;
+    if (!encoder.hazard()) return true;
+    encoder.drop();
+    return false;
+  }
+
+  // Everything of the source, with the ranges in force.
+  Result<void> write_intra(const Plane& plane, std::optional<std::uint32_t> skip) {
+    const auto mask = ObjectMask((source.face.settings ? 1 : 0) | (source.body.settings ? 2 : 0));
+    Shown shown = source.shown;
+    for (int detour = 0;; ++detour) {
+      PlaneInput intra = input(mask, skip);
+      intra.intra = true;
+      intra.temporal.rate = code_rate(plane.rate);
+      intra.face = &shown.face;
+      intra.body = &shown.body;
+      if (source.face.settings) {
+        hold_levels(shown.face, quant_of(*source.face.settings));
+        face = settle(source.face, shown.face.value, false, detour);
+        internal::guard_fap4(face);
+      }
+      if (source.body.settings) body = settle(source.body, shown.body.value, true, detour);
+      if (auto ok = put(intra); !ok) return ok;
+      if (!encoder.hazard() || detour == kMostDetours) return {};
+      encoder.drop();
+    }
+  }
+
+  // Settings with which the planes up to the next intra plane can be coded. `value`, by number,
+  // becomes what the ranges hold. A detour widens the intra ranges of that many parameters.
+  template <class Settings, class Values>
+  Settings settle(const Coded<Settings>& coded, Values& value, bool is_body, int detour) const {
+    Settings settings = *coded.settings;
+    const auto held = stale(settings);
+    settings.mask |= held;
+    complete_types(settings);
+    settings.send_range = {true, true, true, true};
+    const internal::SlotTable& table = *coded.coding.table;
+    const int scale = internal::scale_at(is_body, quant_of(settings));
+    int rest = detour;
+    for (std::size_t i = table.number.size(); i-- > 0;) {
+      const std::size_t number = table.number[i];
+      if (!settings.mask[number]) continue;
+      const std::int64_t step = internal::step_at(is_body, table.step[i], quant_of(settings));
+      const std::int64_t most = internal::level_range(internal::kMaxRange, scale);
+      const std::int64_t level = std::clamp(internal::quantise(value[number], step), -most, most);
+      value[number] = std::int32_t(level * step);
+      const auto range = [&](std::int64_t reach, int more) {
+        const int least = internal::range_number(std::max<std::int64_t>(reach, 0), scale);
+        return std::uint8_t(std::min(least + more, internal::kMaxRange));
+      };
+      settings.range[kIntraMax][number] = range(level, rest > 0 ? 1 + detour / 8 : 0);
+      settings.range[kIntraMin][number] = range(-level, 0);
+      const int still = detour > 0 && rest == detour ? 1 : 0;  // see settle_face()
+      --rest;
+      for (const RangeKind kind : {kPredictiveMax, kPredictiveMin}) {
+        settings.range[kind][number] =
+            held[number] ? std::uint8_t(still) : range(coded.coding.range[kind][i], 0);
+      }
+    }
+    return settings;
+  }
+
+  // What receivers have now, and the bytes.
+  void keep(const Plane& plane) {
+    out.take_in(encoder.reconstruction(), face);
+    if (source.body.settings) out.take_in(encoder.body_reconstruction());
+    bool differs = false;
+    if (has_face(plane.object_mask) || state == State::values) {
+      const fap::Frame& want = source.shown.face;
+      for (std::size_t fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
+        differs |= want.mask[fap] && out.face.mask[fap] && out.face.value[fap] != want.value[fap];
+      }
+    }
+    if (plane.body) {
+      const BodyFrame& want = source.shown.body;
+      for (std::size_t bap = 1; bap <= std::size_t(kBapCount); ++bap) {
+        differs |= want.mask[bap] && out.body.value[bap] != want.value[bap];
+      }
+    }
+    report.changed += differs ? 1 : 0;
+    encoder.take(taken);
+    bytes.insert(bytes.end(), taken.begin(), taken.end());
+  }
+};
+
+Splicer::Splicer(const StreamOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+Splicer::Splicer(Splicer&&) noexcept = default;
+Splicer& Splicer::operator=(Splicer&&) noexcept = default;
+Splicer::~Splicer() = default;
+
+void Splicer::begin_source() {
+  impl_->source = {};
+  if (impl_->report.planes == 0) return;
+  impl_->state = Impl::State::nothing;
+  impl_->cut = true;
+}
+
+void Splicer::pass(const Plane& plane) {
+  impl_->see(plane);
+  impl_->state = Impl::State::nothing;
+  impl_->cut = true;
+}
+
+Result<void> Splicer::copy(const Plane& plane) { return impl_->copy(plane, plane.temporal.skip); }
+Result<void> Splicer::copy(const Plane& plane, std::uint32_t skip) {
+  const bool plain = skip == 0 && plane.temporal.skip.value_or(1) != 0;
+  return impl_->copy(plane, plain ? std::nullopt : std::optional(skip));
+}
+Result<void> Splicer::copy_last(std::uint32_t skip) {
+  impl_->state = Impl::State::nothing;
+  impl_->cut = true;
+  return impl_->write(skip > 0 ? std::optional(skip) : std::nullopt);
+}
+
+Result<bool> Splicer::copy_frames(const Plane& plane, std::int64_t first, std::int64_t end) {
+  if (plane.number >= end) return false;
+  const std::int64_t next = plane.number + 1 + std::int64_t(plane.temporal.skip.value_or(0));
+  if (next <= first) {
+    pass(plane);
+    return true;
+  }
+  const std::int64_t begin = std::max(plane.number, first);
+  const auto skip = std::uint32_t(std::min(next, end) - begin - 1);
+  if (begin > plane.number) pass(plane);
+  auto ok = begin > plane.number ? copy_last(skip) : copy(plane, skip);
+  if (!ok) return ok.error();
+  return next < end;
+}
+
+std::vector<std::uint8_t> Splicer::take() { return std::exchange(impl_->bytes, {}); }
+std::vector<std::uint8_t> Splicer::finish() {
+  std::vector<std::uint8_t> all = take();
+  const std::vector<std::uint8_t> rest = impl_->encoder.finish();
+  all.insert(all.end(), rest.begin(), rest.end());
+  return all;
+}
+
+const SpliceReport& Splicer::report() const { return impl_->report; }
+
+}  // namespace animeme::fba

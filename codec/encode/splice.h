@@ -1,0 +1,87 @@
+/// @file
+/// Cuts and joins streams plane by plane, without a change of any value.
+///
+///     animeme::fba::Splicer splicer;
+///     for (const Plane& plane : first->planes) {             // frames 75 to 124 of a stream
+///       const auto more = splicer.copy_frames(plane, 75, 125);
+///       if (!more) return more.error();
+///     }
+///     splicer.begin_source();                                // and all of another one behind it
+///     for (const Plane& plane : second->planes) splicer.copy(plane);
+///     return splicer.finish();
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "codec/decode/decoder.h"
+#include "codec/encode/encoder.h"
+#include "fap/result.h"
+
+namespace animeme::fba {
+
+/// How many planes a Splicer wrote.
+struct SpliceReport {
+  std::size_t planes = 0;  ///< all
+  /// Those whose bits are not the bits of their source: from a cut to the next intra plane that
+  /// sends all four sets of ranges.
+  std::size_t recoded = 0;
+  /// Planes with a value that differs from that of the source: one beyond +-1860 quantiser steps,
+  /// which predictive planes reach and the intra plane of a cut does not, or one that an earlier
+  /// intra plane coded with another quantiser and that is held since.
+  std::size_t changed = 0;
+};
+
+/// Writes planes of decoded streams one after the other. A plane that follows the plane before it
+/// in the same stream keeps its bits. At a cut the first plane becomes an intra plane that holds
+/// everything that was coded so far, and the planes up to the next intra plane are coded again,
+/// with the same quantiser, masks and ranges, so that their values stay.
+///
+/// Movable, not copyable, not thread safe. Memory does not grow with the stream, if take() is
+/// called. Source: codec/bitstream.md, sections 2 to 5.
+class Splicer {
+ public:
+  /// A stream without planes. Containers and packets need a start code before each plane.
+  explicit Splicer(const StreamOptions& options = {});
+  Splicer(Splicer&&) noexcept;  ///< movable
+  Splicer& operator=(Splicer&&) noexcept;
+  ~Splicer();
+
+  /// The next plane belongs to another stream. It has to be an intra plane, as the first one of
+  /// every stream is.
+  void begin_source();
+
+  /// The next plane of the source is left out, but later planes build on it.
+  void pass(const Plane& plane);
+
+  /// The next plane of the source is written, followed by `skip` frames in which it is held;
+  /// without a number by those that the plane itself skips. Its time code is left out behind a cut.
+  /// Errors: invalid_argument (a predictive plane without an intra plane of its kind before it),
+  /// those of Encoder::write().
+  Result<void> copy(const Plane& plane);
+  Result<void> copy(const Plane& plane, std::uint32_t skip);  ///< likewise
+
+  /// The same for the last plane that was given to pass() or copy(), once more: it is shown from a
+  /// cut on that lies within the frames that it skips.
+  Result<void> copy_last(std::uint32_t skip);
+
+  /// Calls these for the next plane of a source of which the frames from `first` up to `end`, by
+  /// Plane::number, are wanted: a plane that is shown within them is written, as long as it is.
+  /// False: no later plane is.
+  Result<bool> copy_frames(const Plane& plane, std::int64_t first, std::int64_t end);
+
+  /// Whole bytes since the last call; with a start code before each plane they end with the plane.
+  std::vector<std::uint8_t> take();
+  /// The rest, and the end code.
+  std::vector<std::uint8_t> finish();
+
+  /// So far.
+  const SpliceReport& report() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace animeme::fba
