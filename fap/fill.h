@@ -65,9 +65,6 @@ struct FillOptions {
 };
 
 /// Fills `sequence`: the result has the frame numbers 0, 1, 2 ... up to the last one, and the same
-/// mask in each frame: all FAPs that were ever sent and those derived from them.
-
-/// Fills `sequence`: the result has the frame numbers 0, 1, 2 ... up to the last one, and the same
 /// mask in each frame: all FAPs that were ever sent and those that follow from them.
 ///
 /// Rules in order of priority, by mask and never by "the value is 0" (which would move the other
@@ -76,7 +73,6 @@ struct FillOptions {
 /// (neutral). Held visemes and expressions lose their `def` and `init_face` flags, which are
 /// events. Source: fap/semantics.md, section 6; a table sent in the scene (FIT) is not supported.
 ///
-/// Errors: Code::invalid_argument if the frame numbers are negative or do not ascend;
 /// Errors: Code::invalid_argument if the frame numbers are negative or do not ascend;
 /// Code::out_of_range if the result would have more than max_frames frames, or more than
 /// max_missing of them are not in `sequence`.

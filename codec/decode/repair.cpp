@@ -281,6 +281,12 @@ std::vector<AccessUnit> units_of(std::span<const Kept> kept, std::span<const Pie
   return units;
 }
 
+// Another stream, behind the end code of one.
+bool begins_stream(std::span<const std::uint8_t> bytes) {
+  const std::uint32_t code = BitReader(bytes).peek32(0);
+  return code == kSequenceStart || is_object_start(code);
+}
+
 // Cuts a raw stream at its start codes: what lies before the first object or plane is left out, an
 // end code ends it. A start code of something else ends an object (codec/bitstream.md, section 1);
 // where planes go on behind it, it was that of a plane.
@@ -306,6 +312,7 @@ Cut cut(std::span<const std::uint8_t> stream) {
     const std::uint32_t code = in.peek32(at * 8);
     if (code == kSequenceEnd) {
       close(at, false);
+      if (begins_stream(stream.subspan(at + 4))) continue;
       out.ended = true;
       return out;
     }
@@ -340,7 +347,9 @@ Error nothing_left(const std::optional<Error>& failure) {
 enum class Soundness : std::uint8_t { damaged, doubtful, sound };
 
 // `next` gives the bytes piece by piece, and nothing at the end. Only a plane at a time is kept.
-Soundness soundness(const std::function<std::span<const std::uint8_t>()>& next) {
+// `end`: the byte behind the end code.
+Soundness soundness(const std::function<std::span<const std::uint8_t>()>& next,
+                    std::size_t* end = nullptr) {
   Decoder decoder;
   bool doubt = false;
   for (;;) {
@@ -349,7 +358,10 @@ Soundness soundness(const std::function<std::span<const std::uint8_t>()>& next) 
       doubt = doubt || event->kind == Event::Kind::warning;
       continue;
     }
-    if (event.error().code == Code::end_of_stream) break;
+    if (event.error().code == Code::end_of_stream) {
+      if (end != nullptr) *end = std::size_t(event.error().where.bit / 8);
+      break;
+    }
     if (event.error().code != Code::need_data) return Soundness::damaged;
     const std::span<const std::uint8_t> bytes = next();
     decoder.push(bytes);
@@ -358,12 +370,18 @@ Soundness soundness(const std::function<std::span<const std::uint8_t>()>& next) 
   return doubt ? Soundness::doubtful : Soundness::sound;
 }
 
+// A stream with another one behind its end code is doubtful.
 Soundness soundness(std::span<const std::uint8_t> stream) {
-  return soundness([&] {
-    const auto piece = stream.first(std::min(internal::kPieceBytes, stream.size()));
-    stream = stream.subspan(piece.size());
+  std::span<const std::uint8_t> rest = stream;
+  std::size_t end = stream.size();
+  const auto next = [&] {
+    const auto piece = rest.first(std::min(internal::kPieceBytes, rest.size()));
+    rest = rest.subspan(piece.size());
     return piece;
-  });
+  };
+  const Soundness found = soundness(next, &end);
+  const bool more = found == Soundness::sound && begins_stream(stream.subspan(end));
+  return more ? Soundness::doubtful : found;
 }
 
 Soundness soundness(const AccessUnits& units) {

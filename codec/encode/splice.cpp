@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "codec/encode/plane_levels_internal.h"
+#include "codec/syntax/bits.h"
 #include "codec/syntax/quantise_internal.h"
 #include "codec/syntax/settings_internal.h"
 #include "codec/syntax/state_internal.h"
@@ -372,7 +373,8 @@ Result<void> Splicer::copy_last(std::uint32_t skip) {
   return impl_->write(skip > 0 ? std::optional(skip) : std::nullopt);
 }
 
-Result<bool> Splicer::copy_frames(const Plane& plane, std::int64_t first, std::int64_t end) {
+Result<bool> Splicer::copy_frames(const Plane& plane, std::int64_t first, std::int64_t end,
+                                  std::int64_t hold) {
   if (plane.number >= end) return false;
   const std::int64_t next = plane.number + 1 + std::int64_t(plane.temporal.skip.value_or(0));
   if (next <= first) {
@@ -380,7 +382,8 @@ Result<bool> Splicer::copy_frames(const Plane& plane, std::int64_t first, std::i
     return true;
   }
   const std::int64_t begin = std::max(plane.number, first);
-  const auto skip = std::uint32_t(std::min(next, end) - begin - 1);
+  const std::int64_t more = plane.number <= first ? hold : 0;
+  const auto skip = std::uint32_t(std::min(next, end) - begin - 1 + more);
   if (begin > plane.number) pass(plane);
   auto ok = begin > plane.number ? copy_last(skip) : copy(plane, skip);
   if (!ok) return ok.error();
@@ -393,6 +396,29 @@ std::vector<std::uint8_t> Splicer::finish() {
   const std::vector<std::uint8_t> rest = impl_->encoder.finish();
   all.insert(all.end(), rest.begin(), rest.end());
   return all;
+}
+
+std::optional<JoinedStreams> join_streams(std::span<const std::uint8_t> bytes) {
+  Splicer splicer;
+  JoinedStreams joined;
+  for (bool more = true; more;) {
+    Decoder decoder;
+    decoder.push(bytes);
+    decoder.finish();
+    splicer.begin_source();
+    ++joined.count;
+    Result<Event> event = decoder.next();
+    for (; event; event = decoder.next()) {
+      if (event->kind == Event::Kind::plane && !splicer.copy(event->plane)) return std::nullopt;
+    }
+    if (event.error().code != Code::end_of_stream) return std::nullopt;
+    bytes = bytes.subspan(std::size_t(event.error().where.bit / 8));
+    const std::uint32_t next = BitReader(bytes).peek32(0);
+    more = next == kSequenceStart || is_object_start(next);
+  }
+  if (joined.count < 2) return std::nullopt;
+  joined.stream = splicer.finish();
+  return joined;
 }
 
 const SpliceReport& Splicer::report() const { return impl_->report; }

@@ -13,6 +13,8 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "codec/decode/decoder.h"
@@ -68,8 +70,9 @@ class Splicer {
 
   /// Calls these for the next plane of a source of which the frames from `first` up to `end`, by
   /// Plane::number, are wanted: a plane that is shown within them is written, as long as it is.
-  /// False: no later plane is.
-  Result<bool> copy_frames(const Plane& plane, std::int64_t first, std::int64_t end);
+  /// The first of them is held for `hold` more frames. False: no later plane is wanted.
+  Result<bool> copy_frames(const Plane& plane, std::int64_t first, std::int64_t end,
+                           std::int64_t hold = 0);
 
   /// Whole bytes since the last call; with a start code before each plane they end with the plane.
   std::vector<std::uint8_t> take();
@@ -83,5 +86,15 @@ class Splicer {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Streams one behind the other, as `cat a.fba b.fba` makes them: as one stream.
+struct JoinedStreams {
+  std::vector<std::uint8_t> stream;  ///< raw
+  std::size_t count = 0;             ///< of the streams, at least 2
+};
+
+/// Joins the streams of a file, of which each ends with its end code. Decoders end at the first of
+/// these codes. nullopt: there is one stream only, or one of them is damaged.
+std::optional<JoinedStreams> join_streams(std::span<const std::uint8_t> bytes);
 
 }  // namespace animeme::fba

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include "codec/decode/access_unit.h"
 #include "codec/decode/decoder.h"
@@ -227,6 +228,33 @@ TEST(Splicer, CopiesReferenceStreamsByteForByteAndCutsThem) {
   }
   EXPECT_GT(count, 20);
   EXPECT_LT(beyond, count / 10) << count;
+}
+
+TEST(JoinedStreams, AreFoundByTheirEndCodes) {
+  Random random(9);
+  fap::Sequence quiet = test::quiet_clip(random), lively = test::random_clip(4, 30);
+  quiet.rate = lively.rate = {25, 1};
+  const auto a = fba::encode(quiet), b = fba::encode(lively);
+  ASSERT_TRUE(a && b);
+  EXPECT_FALSE(fba::join_streams(*a));
+  Bytes trailing = *a;
+  trailing.resize(trailing.size() + 10, 7);
+  EXPECT_FALSE(fba::join_streams(trailing));
+  Bytes both = *a;
+  both.insert(both.end(), b->begin(), b->end());
+  both.insert(both.end(), a->begin(), a->end());
+  const auto joined = fba::join_streams(both);
+  ASSERT_TRUE(joined);
+  EXPECT_EQ(joined->count, 3u);
+  const fba::DecodedStream first = decoded(*a), second = decoded(*b);
+  Spliced spliced;
+  spliced.stream = joined->stream;
+  spliced.report.planes = 2 * first.planes.size() + second.planes.size();
+  expect_pieces(
+      spliced,
+      {{&first, 0, length(first)}, {&second, 0, length(second)}, {&first, 0, length(first)}});
+  both[a->size() + 60] ^= 0xFF;
+  EXPECT_FALSE(fba::join_streams(std::span(both).first(a->size() + 80)));  // damaged
 }
 
 TEST(Splicer, NeedsAnIntraPlaneFirst) {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -5,9 +6,12 @@
 #include "codec/decode/fill.h"
 #include "fap/rate_text.h"
 #include "tools/app/commands/common.h"
+#include "tools/app/commands/edit_options.h"
+#include "tools/app/commands/edit_source.h"
 #include "tools/app/commands/face_text.h"
 #include "tools/app/commands/plane_file.h"
 #include "tools/app/commands/report.h"
+#include "tools/formats/common/text.h"
 
 namespace animeme::tools {
 
@@ -18,7 +22,10 @@ struct DecodeOptions {
   std::string output;
   std::string bap;
   std::string rate;
+  std::string from, to;
   FaceText face;
+
+  bool piece() const { return !from.empty() || !to.empty(); }
 };
 
 // What is to be written. A face alone is decoded while it is written, and never in memory.
@@ -76,7 +83,36 @@ Result<Decoded> look_at(const PlaneFile& file, DecodeOptions& options) {
   return decoded;
 }
 
+// --from and --to: frames as they are shown, held where a plane is left out.
+Result<Decoded> read_piece(const DecodeOptions& options) {
+  const auto piece = parse_edit_piece(options.from + "-" + options.to);
+  if (!piece) return piece.error();
+  const auto source = read_edit_source(options.input);
+  if (!source) return source.error();
+  const std::int64_t first = piece->from.frame(source->rate);
+  const std::int64_t end =
+      piece->to ? std::min(piece->to->frame(source->rate), source->frames) : source->frames;
+  if (end <= first) {
+    return make_error(Code::invalid_argument, format("nothing is left: the input lasts %.3f s",
+                                                     source->rate.seconds(double(source->frames))))
+        .in_file(options.input);
+  }
+  const EditCut cut{&*source, first, end};
+  auto face = face_frames(cut);
+  if (!face) return face.error();
+  Decoded decoded;
+  decoded.motion.kind = source->motion.kind;
+  decoded.motion.face = std::move(*face);
+  decoded.motion.body.rate = source->rate;
+  decoded.motion.body.name = source->motion.body.name;
+  decoded.motion.body.frames = body_frames(cut);
+  decoded.bodies = std::int64_t(decoded.motion.body.frames.size());
+  decoded.face = !decoded.motion.face.frames.empty();
+  return decoded;
+}
+
 Result<Decoded> read(DecodeOptions& options) {
+  if (options.piece()) return read_piece(options);
   if (options.bap.empty() && PlaneFile::can_read(options.input)) {
     const PlaneFile file(options.input);
     options.face.frames = planes_of(file);
@@ -216,10 +252,13 @@ void add_options(OptionTable& cli, DecodeOptions& options) {
   cli.add("--expand", face.expand,
           "Expand FAP 1 and 2 (visemes, expressions) to low-level FAPs, for players that do "
           "not support them");
+  cli.add("--from", options.from, "Begin here: seconds (12.5), 1:02.5, or frames (375f)")
+      ->type("TIME");
+  cli.add("--to", options.to, "End here")->type("TIME");
   cli.add("--rate", options.rate, "Resample to this frame rate, with linear interpolation")
       ->frame_rate();
   add_exact_option(cli, face.exact);
-  cli.get("--coded")->excludes("--fill --expand --rate");
+  cli.get("--coded")->excludes("--fill --expand --rate --from --to");
 }
 
 }  // namespace
@@ -228,6 +267,7 @@ const Command kDecode{
     "decode", "Decode an FBA stream to FAP and BAP text, as a player shows it",
     "  animeme decode talk.mp4 -o talk.fap\n"
     "  animeme decode talk.fba --expand --rate 25 -o talk.fap    # for any player\n"
+    "  animeme decode talk.mp4 --from 12 --to 14 -o part.fap\n"
     "  animeme decode dance.fba -o face.fap --bap body.bap\n"
     "  animeme decode talk.fba --coded -o - | head -4    # for tests of decoders",
     set_up<DecodeOptions>};

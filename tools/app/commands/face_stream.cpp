@@ -97,7 +97,7 @@ namespace {
 
 // "face 100 planes, 4.00 s, 2.52 kbit/s, sound aac".
 std::string summary(const media::MuxInput& input, const media::MuxOptions& options,
-                    double sound_seconds) {
+                    double sound_seconds, bool copied) {
   std::string text;
   if (input.face != nullptr) {
     const fba::AccessUnits& face = *input.face;
@@ -112,7 +112,7 @@ std::string summary(const media::MuxInput& input, const media::MuxOptions& optio
   }
   if (sound_seconds > 0) {
     text += ", sound " + seconds_text(sound_seconds);
-    text += input.encoded == nullptr
+    text += input.encoded == nullptr || !copied
                 ? std::string(" as ") + name_of(options.audio.codec)
                 : std::string(" copied (") + name_of(input.encoded->format.codec) + ")";
   }
@@ -122,7 +122,7 @@ std::string summary(const media::MuxInput& input, const media::MuxOptions& optio
 }  // namespace
 
 Result<int> write_media(const std::string& path, const media::MuxInput& input,
-                        media::MuxOptions options, bool known_sound) {
+                        media::MuxOptions options, SoundState sound) {
   AtStep step(Step::muxing);
   const Interrupt interrupt;
   ProgressLine progress("writing " + path);
@@ -133,7 +133,7 @@ Result<int> write_media(const std::string& path, const media::MuxInput& input,
   Result<media::MuxResult> written = media::write_container(path, input, options);
   progress.clear();
   for (const std::string& text : odd) {
-    if (!known_sound) warn(*input.audio_file + ": " + text);
+    if (sound != SoundState::reported) warn(*input.audio_file + ": " + text);
   }
   if (!written) return written.error().in_file(path);
   if (written->stopped) {
@@ -147,7 +147,9 @@ Result<int> write_media(const std::string& path, const media::MuxInput& input,
   if (input.face != nullptr) facts["planes"] = input.face->units.size();
   facts["sound_seconds"] = written->sound_seconds;
   if (!unknown) facts["bytes"] = bytes;
-  report_output(path, summary(input, options, written->sound_seconds), facts);
+  report_output(path,
+                summary(input, options, written->sound_seconds, sound != SoundState::made_again),
+                facts);
   return kOk;
 }
 

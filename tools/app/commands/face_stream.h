@@ -53,10 +53,16 @@ bool shows_captions(const std::string& output, bool subtitles);
 /// For a container of this name.
 media::AudioSettings audio_settings(const SoundSettings& settings, const std::string& path);
 
+/// What is known of the sound that write_media() gets.
+enum class SoundState : std::uint8_t {
+  plain,       ///< nothing
+  reported,    ///< what is wrong with the sound file was reported before
+  made_again,  ///< MuxInput::encoded was made of samples, and does not have the packets of a file
+};
+
 /// Writes a container with progress and says what was written. Ctrl-C completes what was written
-/// so far: the exit code is kInterrupted then. `known_sound`: what is wrong with the sound file was
-/// reported before.
+/// so far: the exit code is kInterrupted then.
 Result<int> write_media(const std::string& path, const media::MuxInput& input,
-                        media::MuxOptions options, bool known_sound = false);
+                        media::MuxOptions options, SoundState sound = SoundState::plain);
 
 }  // namespace animeme::tools

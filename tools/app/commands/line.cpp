@@ -21,10 +21,10 @@ namespace animeme::tools {
 namespace {
 
 constexpr const Command* kCommands[] = {
-    &kSpeak,    &kBatch,  &kFollow, &kAlign,  &kCorpus,  &kTrain,   &kEvaluate,
-    &kEncode,   &kDecode, &kMux,    &kDemux,  &kInfo,    &kCompare, &kCheck,
-    &kStats,    &kPlot,   &kView,   &kRender, &kHead,    &kImport,  &kCrossmap,
-    &kRetarget, &kExport, &kStream, &kServe,  &kReceive, &kPhones,  &kManual};
+    &kSpeak,  &kBatch, &kFollow,  &kAlign,  &kCorpus, &kTrain,    &kEvaluate, &kEncode,
+    &kDecode, &kMux,   &kDemux,   &kEdit,   &kInfo,   &kCompare,  &kCheck,    &kStats,
+    &kPlot,   &kView,  &kRender,  &kHead,   &kImport, &kCrossmap, &kRetarget, &kExport,
+    &kStream, &kServe, &kReceive, &kPhones, &kManual};
 
 // Common options, and where they go.
 struct CommonFlags {
@@ -35,9 +35,9 @@ struct CommonFlags {
 };
 
 // They read streams, and do what can be done with damaged ones.
-constexpr std::string_view kRepair[] = {"encode",   "decode", "mux",   "demux", "info",
-                                        "compare",  "stats",  "plot",  "view",  "render",
-                                        "retarget", "export", "stream"};
+constexpr std::string_view kRepair[] = {"encode",  "decode",   "mux",    "demux", "info",
+                                        "compare", "edit",     "stats",  "plot",  "view",
+                                        "render",  "retarget", "export", "stream"};
 
 OptionTable common_table(CommonFlags& flags) {
   OptionTable table(

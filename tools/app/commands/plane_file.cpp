@@ -7,7 +7,9 @@
 #include <span>
 
 #include "tools/app/commands/damage.h"
+#include "tools/app/commands/terminal.h"
 #include "tools/formats/exchange/file_kind.h"
+#include "tools/formats/exchange/motion.h"
 #include "tools/formats/files/files.h"
 
 namespace animeme::tools {
@@ -67,9 +69,13 @@ bool PlaneFile::can_read(const std::string& path) {
 }
 
 std::optional<PlaneFile> PlaneFile::repaired(const std::string& name) const {
-  if (is_strict()) return std::nullopt;
   const auto bytes = path_.empty() ? bytes_ : read_file(path_);
   if (!bytes) return std::nullopt;
+  if (auto joined = fba::join_streams(*bytes)) {
+    warn(name + ": " + exchange::note_of(*joined));
+    return PlaneFile(std::move(joined->stream));
+  }
+  if (is_strict()) return std::nullopt;
   auto repaired = fba::repair_stream(*bytes);
   if (!repaired || repaired->damage.empty()) return std::nullopt;
   report_damage(name, repaired->damage);

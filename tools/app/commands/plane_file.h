@@ -22,8 +22,9 @@ class PlaneFile {
   /// A stream in a file.
   explicit PlaneFile(std::string path) : path_(std::move(path)) {}
 
-  /// The same stream without what is damaged (damage.h), in memory; nullopt: with --strict, or if
-  /// nothing is damaged, or nothing can be repaired. `name` is that of the file in warnings.
+  /// The same stream in memory: several streams one behind the other as one, or without what is
+  /// damaged (damage.h). nullopt: there is nothing to repair, or that is impossible, or --strict
+  /// was given and it is damaged. `name` is that of the file in warnings.
   std::optional<PlaneFile> repaired(const std::string& name) const;
 
   /// Is this a file (no pipe, not standard input) with such a stream?

@@ -167,7 +167,7 @@ Result<int> write_result(const SpeakOptions& options, const fap::Sequence& clip,
   }
   media::MuxInput input{.face = &*units, .texts = &texts};
   give_sound(options, spoken, input);
-  Result<int> written = write_media(options.output, input, mux, true);
+  Result<int> written = write_media(options.output, input, mux, SoundState::reported);
   if (!written || *written != kOk || options.preview.empty()) return written;
   return write_preview(options.preview, *units, input);
 }

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "codec/encode/splice.h"
 #include "fap/text.h"
 #include "tools/formats/exchange/curves.h"
 
@@ -45,12 +46,24 @@ Result<Motion> read_motion(std::vector<std::uint8_t> bytes, FrameNumbers numbers
   }
 }
 
+std::string note_of(const fba::JoinedStreams& joined) {
+  return std::to_string(joined.count) + " streams, one behind the other, are read as one";
+}
+
 Result<Motion> decode_motion(std::vector<std::uint8_t> stream, std::vector<fba::Damage>* damage) {
   Motion motion;
   motion.kind = FileKind::fba_stream;
   motion.stream = std::move(stream);
   Result<fba::DecodedStream> decoded = fba::decode(motion.stream);
-  const bool sound = decoded && decoded->warnings.empty();
+  bool sound = decoded && decoded->warnings.empty();
+  if (decoded && !sound) {
+    if (auto joined = fba::join_streams(motion.stream)) {
+      motion.stream = std::move(joined->stream);
+      decoded = fba::decode(motion.stream);
+      motion.warnings.push_back(note_of(*joined));
+      sound = true;
+    }
+  }
   if (!sound && damage != nullptr) {
     auto repaired = fba::repair_stream(motion.stream);
     if (repaired && !repaired->damage.empty()) {
@@ -62,7 +75,7 @@ Result<Motion> decode_motion(std::vector<std::uint8_t> stream, std::vector<fba::
   if (!decoded) return decoded.error();
   motion.face = fba::face_sequence(*decoded);
   motion.body = fba::body_sequence(*decoded);
-  motion.warnings = decoded->warnings;
+  motion.warnings.insert(motion.warnings.end(), decoded->warnings.begin(), decoded->warnings.end());
   motion.decoded = std::move(*decoded);
   return motion;
 }

@@ -9,6 +9,7 @@
 
 #include "codec/decode/decoder.h"
 #include "codec/decode/repair.h"
+#include "codec/encode/splice.h"
 #include "codec/text/bap_text.h"
 #include "fap/frame.h"
 #include "fap/result.h"
@@ -37,8 +38,12 @@ Result<Motion> read_motion(std::vector<std::uint8_t> bytes,
                            FrameNumbers numbers = FrameNumbers::from_zero,
                            std::vector<fba::Damage>* damage = nullptr);
 
-/// Decodes a raw FBA stream. A damaged one is repaired if `damage` is not null, which receives what
-/// is lost; Motion::stream is then the repaired one. Errors: those of fba::decode().
+/// A sentence about streams that were joined, for the user.
+std::string note_of(const fba::JoinedStreams& joined);
+
+/// Decodes a raw FBA stream, or several one behind the other. A damaged one is repaired if `damage`
+/// is not null, which receives what is lost; Motion::stream is then the repaired one. Errors: those
+/// of fba::decode().
 Result<Motion> decode_motion(std::vector<std::uint8_t> stream,
                              std::vector<fba::Damage>* damage = nullptr);
 

@@ -1,0 +1,119 @@
+#include "tools/app/commands/edit_source.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "codec/decode/fill.h"
+#include "tools/formats/media/container.h"
+
+namespace animeme::tools {
+namespace {
+
+// Rounding of times must not add a frame.
+constexpr double kNearly = 1e-4;
+
+std::int64_t frames_of_motion(const exchange::Motion& motion) {
+  if (!motion.decoded.planes.empty()) {
+    const fba::Plane& last = motion.decoded.planes.back();
+    return last.number + 1 + std::int64_t(last.temporal.skip.value_or(0));
+  }
+  std::int64_t frames = 0;
+  if (!motion.face.frames.empty()) frames = motion.face.frames.back().number + 1;
+  if (!motion.body.frames.empty()) {
+    frames = std::max(frames, motion.body.frames.back().number + 1);
+  }
+  return frames;
+}
+
+// Seconds of the sound of a container; nullopt: it has none.
+Result<std::optional<double>> sound_seconds(const std::string& path) {
+  const auto info = media::probe(path);
+  if (!info) return info.error().in_file(path);
+  const media::TrackInfo* track = info->first(media::TrackKind::audio);
+  if (track == nullptr) return std::optional<double>();
+  return std::optional(track->duration > 0 ? track->duration : info->duration);
+}
+
+}  // namespace
+
+Result<EditSource> read_edit_source(const std::string& path) {
+  auto motion = read_motion(path);
+  if (!motion) return motion.error();
+  EditSource source;
+  source.path = path;
+  source.motion = std::move(*motion);
+  const bool face = !source.motion.face.frames.empty();
+  source.rate = face ? source.motion.face.rate : source.motion.body.rate;
+  source.frames = frames_of_motion(source.motion);
+  if (source.frames == 0) {
+    return make_error(Code::not_found, "there is neither a face nor a body").in_file(path);
+  }
+  if (source.motion.kind != FileKind::media) return source;
+  const double rate = source.rate.frames_per_second();
+  source.lead =
+      std::max<std::int64_t>(0, std::int64_t(std::ceil(source.motion.start * rate - kNearly)));
+  source.origin = source.motion.start - double(source.lead) / rate;
+  source.frames += source.lead;
+  const auto seconds = sound_seconds(path);
+  if (!seconds) return seconds.error();
+  if (*seconds) {
+    source.sound = true;
+    const double end = std::ceil((**seconds - source.origin) * rate - kNearly);
+    source.frames = std::max(source.frames, std::int64_t(end));
+  }
+  source.texts = speech::carried_tracks(path, terminal_log());
+  return source;
+}
+
+Result<fap::Sequence> face_frames(const EditCut& cut) {
+  const EditSource& source = *cut.source;
+  fap::Sequence clip;
+  clip.rate = source.rate;
+  clip.name = source.motion.face.name;
+  if (source.motion.face.frames.empty()) return clip;
+  FaceInput input;
+  input.clip = source.motion.face;
+  for (const fba::Plane& plane : source.motion.decoded.planes) {
+    if (!fba::has_face(plane.object_mask)) continue;
+    input.rules.push_back(
+        fba::group_rules(plane.face_settings ? *plane.face_settings : fba::FaceSettings()));
+  }
+  fap::FillOptions options;
+  options.mirror = options.lips = source.coded();  // a text says nothing about what it leaves out
+  options.keep_high_level = true;
+  const auto shown = fap::fill(input.clip, input.rules, options);
+  if (!shown) return shown.error().in_file(source.path);
+  const auto last = std::int64_t(shown->frames.size()) - 1;
+  clip.frames.reserve(std::size_t(cut.end - cut.first));
+  for (std::int64_t frame = cut.first; frame < cut.end; ++frame) {
+    const auto at = std::clamp<std::int64_t>(frame - source.lead, 0, last);
+    clip.frames.push_back(shown->frames[std::size_t(at)]);
+    clip.frames.back().number = frame - cut.first;
+  }
+  return clip;
+}
+
+std::vector<fba::BodyFrame> body_frames(const EditCut& cut) {
+  const EditSource& source = *cut.source;
+  const std::vector<fba::BodyFrame>& frames = source.motion.body.frames;
+  std::vector<fba::BodyFrame> body;
+  if (frames.empty()) return body;
+  fba::BodyFrame held;
+  for (const fba::BodyFrame& frame : frames) held.mask |= frame.mask;  // one mask for all
+  std::size_t next = 0;
+  for (std::int64_t frame = std::min<std::int64_t>(cut.first, source.lead); frame < cut.end;
+       ++frame) {
+    const std::int64_t at = std::max<std::int64_t>(frame - source.lead, frames.front().number);
+    for (; next < frames.size() && frames[next].number <= at; ++next) {
+      for (std::size_t bap = 1; bap < held.value.size(); ++bap) {
+        if (frames[next].mask[bap]) held.value[bap] = frames[next].value[bap];
+      }
+    }
+    held.number = frame - cut.first;
+    if (frame >= cut.first) body.push_back(held);
+  }
+  return body;
+}
+
+}  // namespace animeme::tools

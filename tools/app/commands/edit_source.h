@@ -1,0 +1,46 @@
+/// @file
+/// The inputs of edit on one time line: frames of the face and the body, sound and words.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fap/fill.h"
+#include "tools/app/commands/common.h"
+#include "tools/formats/media/text_track.h"
+
+namespace animeme::tools {
+
+/// One input file. Its frames count from 0; frame k is shown at k / rate seconds.
+struct EditSource {
+  std::string path;
+  MotionInput motion;       ///< with the decoded planes, if it is a stream
+  fap::Rate rate;           ///< of the face, or of the body if there is none
+  std::int64_t lead = 0;    ///< frames of sound before the motion, in which its first pose is held
+  std::int64_t frames = 0;  ///< of the whole: motion, the frames that its last plane skips, sound
+  bool sound = false;       ///< there is some
+  double origin = 0;        ///< time of frame 0 on the clock of the sound, seconds
+  std::vector<media::TextTrack> texts;  ///< on the same clock
+
+  bool coded() const { return !motion.stream.empty(); }  ///< it has planes, which can be copied
+};
+
+/// Reads an input with motion. Errors: those of read_motion(); not_found (there is no motion).
+Result<EditSource> read_edit_source(const std::string& path);
+
+/// Frames `first` up to `end` of a source.
+struct EditCut {
+  const EditSource* source = nullptr;
+  std::int64_t first = 0;
+  std::int64_t end = 0;
+};
+
+/// Its complete face (fap/fill.h), one frame for each of the cut, numbered from 0; no frames if it
+/// has none. Errors: those of fap::fill().
+Result<fap::Sequence> face_frames(const EditCut& cut);
+/// Likewise its body, held where planes have none.
+std::vector<fba::BodyFrame> body_frames(const EditCut& cut);
+
+}  // namespace animeme::tools
