@@ -2,6 +2,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -11,6 +12,7 @@ namespace {
 
 constexpr int kMaxDecimals = 9;            // 2^32 * 10^9 * 2 still fits 64 bits
 constexpr int kFewestRoundedDecimals = 7;  // from here on a decimal number means a nearby fraction
+constexpr double kNameError = 0.001;       // of the decimal name of a rate
 constexpr std::array<std::uint32_t, 6> kNtscBases = {15, 24, 30, 48, 60, 120};
 
 struct Fraction {
@@ -127,7 +129,10 @@ std::string format_rate(Rate rate) {
     const Decimal nearest{scaled / rate.den + (scaled % rate.den * 2 >= rate.den ? 1u : 0u),
                           decimals};
     const Result<Rate> read = rate_of(nearest);
-    if (read && *read == rate) return to_text(nearest);
+    // 23.98 means 24000/1001, but people write 23.976.
+    const double error = double(nearest.digits) / double(power_of_ten(decimals)) -
+                         double(rate.num) / double(rate.den);
+    if (read && *read == rate && std::abs(error) < kNameError) return to_text(nearest);
   }
   return std::to_string(rate.num) + "/" + std::to_string(rate.den);
 }

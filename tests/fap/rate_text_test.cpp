@@ -68,7 +68,8 @@ TEST(RateText, WritesTheShortestForm) {
   EXPECT_EQ(format_rate({25, 2}), "12.5");
   EXPECT_EQ(format_rate({401, 16}), "25.0625");
   EXPECT_EQ(format_rate({30000, 1001}), "29.97");
-  EXPECT_EQ(format_rate({24000, 1001}), "23.98");
+  EXPECT_EQ(format_rate({24000, 1001}), "23.976");
+  EXPECT_EQ(format_rate({48000, 1001}), "47.952");
   EXPECT_EQ(format_rate({2997, 100}), "29.97000");  // not the NTSC rate
   EXPECT_EQ(format_rate({1, 3}), "0.3333333");
 }

@@ -219,6 +219,30 @@ TEST(Check, ACrashInOneCaseDoesNotEndTheRun) {
   }
 }
 
+// Where the standard does not say what is right, another decoder may be.
+TEST(Check, UnsettledCasesDoNotFailAnotherDecoder) {
+  const TempDir dir;
+  const std::string wrong =
+      decoder(dir, "other", "case $case in *range_kept_*) exit 7;; esac\n" + kRightFace);
+  const Checked result = run(wrong, "range_kept_*");
+  EXPECT_EQ(result.program.exit_code, 0) << result.program.err;
+  std::size_t unsettled = 0;
+  for (const auto& [name, one] : result.result) {
+    if (one["right"]) continue;
+    EXPECT_EQ(one["counts"], false) << name;
+    EXPECT_EQ(one["certainty"], "?") << name;
+    ++unsettled;
+  }
+  EXPECT_GT(unsettled, 0u);
+  EXPECT_EQ(run(wrong, "range_kept_*", {"--count", "all"}).program.exit_code, 1);
+  const std::string crashes =
+      decoder(dir, "crashes", "case $case in *range_kept_*) kill -ABRT $$;; esac\n" + kRightFace);
+  EXPECT_EQ(run(crashes, "range_kept_*").program.exit_code, 1);
+  const std::string settled =
+      decoder(dir, "settled", "case $case in *quant_05*) exit 7;; esac\n" + kRightFace);
+  EXPECT_EQ(run(settled, "quant_0[0-9]").program.exit_code, 1);
+}
+
 // As the public codec does whatever the mask type: an uncoded side takes the value of the other.
 TEST(Check, CopiedSidesAreRightValues) {
   std::string pairs;

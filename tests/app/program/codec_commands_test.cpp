@@ -293,7 +293,7 @@ TEST(InfoPlanes, SayWhatTheHeadersSay) {
   succeeds({"encode", dir / "a.fap", "--epf", dir / "a.epf", "--plane-start-codes", "all", "-o",
             dir / "a.fba"});
   EXPECT_THAT(animeme({"info", dir / "a.fba", "--planes"}).out,
-              HasSubstr("  start code  rate 23.98  time 01:02:03  skip 17  viseme_def  "
+              HasSubstr("  start code  rate 23.976  time 01:02:03  skip 17  viseme_def  "
                         "FAP 1 types 1000000000 quant 2 ranges as before\n"));
   const Json plane = json_of({"info", dir / "a.fba", "--planes"})["plane_list"][0];
   EXPECT_EQ(plane["time_code"], "01:02:03");

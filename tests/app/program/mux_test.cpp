@@ -77,6 +77,34 @@ TEST(MuxCommand, TheFaceStaysTheSameInEveryFormat) {
   }
 }
 
+std::size_t face_bytes(const std::string& path) {
+  const TempDir dir;
+  EXPECT_EQ(animeme({"demux", path, "-o", dir / "face.fba"}).exit_code, 0);
+  return test::slurp(dir / "face.fba").size();
+}
+
+TEST(MuxCommand, SmallIsSmallerWithoutAVisibleError) {
+  const TempDir dir;
+  ASSERT_EQ(animeme({"speak", "-q", "--text", "Small streams move the same lips.", "-o",
+                     dir / "talk.fap"})
+                .exit_code,
+            0);
+  for (const char* name : {"a.mp4", "a.m3u8"}) {
+    SCOPED_TRACE(name);
+    const std::vector<std::string> line = {"mux", dir / "talk.fap", "--intra-seconds", "1", "-o"};
+    auto plain = line, small = line;
+    plain.push_back(dir / name);
+    small.insert(small.end(), {dir / (std::string("small_") + name), "--small"});
+    ASSERT_EQ(animeme(plain).exit_code, 0);
+    ASSERT_EQ(animeme(small).exit_code, 0);
+    EXPECT_LT(face_bytes(small[5]), face_bytes(plain[5]) * 3 / 4);
+    const auto compared = animeme({"compare", dir / "talk.fap", small[5]});
+    const std::size_t error = compared.out.find("error: ");
+    ASSERT_NE(error, std::string::npos) << compared.out;
+    EXPECT_LT(std::stod(compared.out.substr(error + 7)), 1.1);  // quantiser steps
+  }
+}
+
 // A stream of one intra plane, as encode writes it, of 20 s.
 void write_long_stream(const TempDir& dir) {
   std::string text = "2.1 long 25 500\n";

@@ -11,6 +11,12 @@ namespace animeme::tools {
 namespace {
 
 using conformance::Family;
+
+// Failed where the standard does not say what is right.
+bool is_unsettled(const CaseResult& result) {
+  return !result.counts && !is_right(result.verdict) && result.verdict != Verdict::skipped;
+}
+
 // How often a feature occurs, and in how many cases that are right.
 struct Count {
   std::size_t cases = 0, right = 0;
@@ -104,6 +110,7 @@ Json to_json(const CaseResult& result) {
     json["first_difference"]["got"] = difference.missing ? Json() : Json(difference.got);
   }
   if (result.encoded_again) json["encoded_again"] = true;
+  if (is_unsettled(result)) json["counts"] = false;
   json["certainty"] = info.certainty;
   json["features"] = info.features;
   return json;
@@ -121,11 +128,10 @@ std::string junit_case(const CaseResult& result) {
                     xml(info.name) + "\" time=\"" + format("%.3f", result.end.seconds) + "\"";
   if (is_right(result.verdict)) return out + "/>\n";
   const bool failure = result.verdict == Verdict::wrong || result.verdict == Verdict::encoder;
-  const char* element = result.verdict == Verdict::skipped ? "skipped"
-                        : failure                          ? "failure"
-                                                           : "error";
+  const bool skipped = result.verdict == Verdict::skipped || is_unsettled(result);
+  const char* element = skipped ? "skipped" : failure ? "failure" : "error";
   out += std::string(">\n    <") + element + " message=\"" + xml(result.detail) + "\"";
-  if (result.verdict != Verdict::skipped) {
+  if (!skipped) {
     out += std::string(" type=\"") + verdict_name(result.verdict) + "\"";
   }
   return out + "/>\n  </testcase>\n";
@@ -140,6 +146,7 @@ Tally tally(const std::vector<CaseResult>& results) {
     ++out.verdicts[result.verdict];
     out.right += is_right(result.verdict);
     out.skipped += result.verdict == Verdict::skipped;
+    out.unsettled += is_unsettled(result);
     out.bad_data += result.verdict == Verdict::bad_data;
     out.parameters += result.one->path.count("parameters");
     out.encoded_again += result.encoded_again;
@@ -156,8 +163,11 @@ std::string text_report(const std::vector<CaseResult>& results, bool own) {
   out += right_but(results);
   for (const CaseResult& result : results) {
     if (is_right(result.verdict)) continue;
-    out += format("%-8s ", verdict_name(result.verdict)) + result.one->info.name + ": " +
-           result.detail + "\n";
+    out +=
+        format("%-8s ", verdict_name(result.verdict)) + result.one->info.name + ": " +
+        result.detail +
+        (is_unsettled(result) ? " (mark " + result.one->info.certainty + ", does not count)" : "") +
+        "\n";
   }
   if (!sum.all_right()) out += never_right(results);
   std::string verdicts;
@@ -167,6 +177,10 @@ std::string text_report(const std::vector<CaseResult>& results, bool own) {
   }
   out += std::to_string(sum.right) + " of " + std::to_string(sum.cases) + " cases right (" +
          verdicts + ")";
+  if (sum.unsettled > 0) {
+    out += "; " + std::to_string(sum.unsettled) +
+           " others are not settled by the standard and do not count (--count all)";
+  }
   if (own && sum.encoded_again > 0) {
     out += "; " + std::to_string(sum.encoded_again) + " of " + std::to_string(sum.parameters) +
            " streams re-encoded byte for byte";
@@ -177,9 +191,13 @@ std::string text_report(const std::vector<CaseResult>& results, bool own) {
 std::string json_report(const Suite& suite, const std::vector<CaseResult>& results,
                         const std::string& decoder) {
   const Tally sum = tally(results);
-  Json json = {{"suite", suite.name},    {"decoder", decoder},
-               {"cases", sum.cases},     {"right", sum.right},
-               {"skipped", sum.skipped}, {"encoded_again", sum.encoded_again}};
+  Json json = {{"suite", suite.name},
+               {"decoder", decoder},
+               {"cases", sum.cases},
+               {"right", sum.right},
+               {"skipped", sum.skipped},
+               {"unsettled", sum.unsettled},
+               {"encoded_again", sum.encoded_again}};
   for (const auto& [verdict, count] : sum.verdicts) json["verdicts"][verdict_name(verdict)] = count;
   json["features"] = Json::object();
   const auto features = by_feature(results);
@@ -202,14 +220,16 @@ std::string junit_report(const Suite& suite, const std::vector<CaseResult>& resu
   double seconds = 0;
   std::string cases;
   for (const CaseResult& result : results) {
-    failures += result.verdict == Verdict::wrong || result.verdict == Verdict::encoder;
+    failures += !is_unsettled(result) &&
+                (result.verdict == Verdict::wrong || result.verdict == Verdict::encoder);
     seconds += result.end.seconds;
     cases += junit_case(result);
   }
-  const std::size_t errors = sum.cases - sum.right - sum.skipped - failures;
+  const std::size_t skipped = sum.skipped + sum.unsettled;
+  const std::size_t errors = sum.cases - sum.right - skipped - failures;
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"" + xml(suite.name) +
          "\" tests=\"" + std::to_string(sum.cases) + "\" failures=\"" + std::to_string(failures) +
-         "\" errors=\"" + std::to_string(errors) + "\" skipped=\"" + std::to_string(sum.skipped) +
+         "\" errors=\"" + std::to_string(errors) + "\" skipped=\"" + std::to_string(skipped) +
          "\" time=\"" + format("%.3f", seconds) + "\">\n" + cases + "</testsuite>\n";
 }
 

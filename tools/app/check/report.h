@@ -12,14 +12,16 @@ namespace animeme::tools {
 
 /// Counts of a run.
 struct Tally {
-  std::size_t cases = 0,                                       ///< all
-      right = 0,                                               ///< with a right verdict
-      skipped = 0,                                             ///< not run
-      bad_data = 0;                                            ///< damaged suite
-  std::size_t parameters = 0,                                  ///< with an EPF
-      encoded_again = 0;                                       ///< written byte for byte
-  std::map<Verdict, std::size_t> verdicts;                     ///< how many of each
-  bool all_right() const { return right + skipped == cases; }  ///< no failures
+  std::size_t cases = 0,                    ///< all
+      right = 0,                            ///< with a right verdict
+      skipped = 0,                          ///< not run
+      unsettled = 0,                        ///< failed, but CaseResult::counts
+      bad_data = 0;                         ///< damaged suite
+  std::size_t parameters = 0,               ///< with an EPF
+      encoded_again = 0;                    ///< written byte for byte
+  std::map<Verdict, std::size_t> verdicts;  ///< how many of each
+  /// No failures that count.
+  bool all_right() const { return right + skipped + unsettled == cases; }
 };
 Tally tally(const std::vector<CaseResult>& results);  ///< counts the results of a run
 

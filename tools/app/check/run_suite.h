@@ -38,8 +38,10 @@ struct CaseResult {
   Verdict verdict = Verdict::skipped;  ///< the verdict
   std::string detail;                  ///< one sentence without a full stop, may be empty
   FirstDifference difference;          ///< if values are wrong
-  bool encoded_again = false;          ///< the byte-exact encoder check was run and passed
-  ChildEnd end;                        ///< of the external program
+  /// False: a failure here does not make the run fail, since the standard does not settle the case.
+  bool counts = true;
+  bool encoded_again = false;  ///< the byte-exact encoder check was run and passed
+  ChildEnd end;                ///< of the external program
 };
 
 /// Options for a run.

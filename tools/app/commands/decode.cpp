@@ -245,16 +245,18 @@ void add_options(OptionTable& cli, DecodeOptions& options) {
   cli.add("--bap", options.bap, "BAP text with the body to write, - for standard output")
       ->output(".bap .txt");
   FaceText& face = options.face;
+  face.expand_mixed = true;
   cli.add("--coded", face.coded,
           "Write the coded values only: mirrored sides and skipped frames are missing; with "
           "--exact");
   cli.add("--fill", face.fill, "Write all FAPs: those that the stream never codes are 0");
   cli.add("--expand", face.expand,
           "Expand FAP 1 and 2 (visemes, expressions) to low-level FAPs, for players that do "
-          "not support them");
+          "not support them; the default where others are coded, too, except with --exact");
   cli.add("--from", options.from, "Begin here: seconds (12.5), 1:02.5, or frames (375f)")
-      ->type("TIME");
-  cli.add("--to", options.to, "End here")->type("TIME");
+      ->type("TIME")
+      ->check(problem_of<parse_edit_time>);
+  cli.add("--to", options.to, "End here")->type("TIME")->check(problem_of<parse_edit_time>);
   cli.add("--rate", options.rate, "Resample to this frame rate, with linear interpolation")
       ->frame_rate();
   add_exact_option(cli, face.exact);

@@ -226,8 +226,9 @@ Result<int> write_text(const Plan& plan, const EditSettings& options) {
   if (body) {
     if (auto done = file.write(fba::write_bap_text(motion->body)); !done) return done.error();
   } else {
-    const auto written =
-        write_face_text(file, name_of_output(options.output), face_text(motion->face));
+    FaceText text = face_text(motion->face);
+    text.expand_mixed = true;
+    const auto written = write_face_text(file, name_of_output(options.output), text);
     if (!written) return written.error();
     frames = *written;
   }
@@ -337,10 +338,12 @@ void add_options(OptionTable& cli, EditSettings& options) {
       ->output("")
       ->required();
   cli.add("--from", options.from, "Begin here: seconds (12.5), 1:02.5, or frames (375f)")
-      ->type("TIME");
-  cli.add("--to", options.to, "End here")->type("TIME");
+      ->type("TIME")
+      ->check(problem_of<parse_edit_time>);
+  cli.add("--to", options.to, "End here")->type("TIME")->check(problem_of<parse_edit_time>);
   cli.add("--at", options.at, "Keep this piece, FROM-TO; several are joined: 0-2.5,10-12")
       ->type("PIECE")
+      ->check(problem_of<parse_edit_piece>)
       ->at_commas()
       ->one_at_a_time()
       ->excludes("--from --to");
@@ -360,15 +363,18 @@ void add_options(OptionTable& cli, EditSettings& options) {
           "lips jaw brows lids gaze cheeks nose tongue head ears expression body, FAPs such as "
           "open_jaw or 31-38, and rest, which is the input")
       ->type("PART=FILE")
+      ->check(problem_of<parse_edit_take>)
       ->at_commas()
       ->one_at_a_time();
   cli.add("--scale", options.scale, "Multiply a part of the face: brows=1.4; 0.8 alone: all of it")
       ->type("PART=FACTOR")
+      ->check(problem_of<parse_edit_amount>)
       ->at_commas()
       ->one_at_a_time();
   cli.add("--smooth", options.smooth,
           "Smooth a part of the face over so many seconds: head=0.2; without a delay")
       ->type("PART=SECONDS")
+      ->check(problem_of<parse_edit_amount>)
       ->at_commas()
       ->one_at_a_time();
   cli.add("--fade", options.fade, "Begin and end at rest: seconds of each fade")

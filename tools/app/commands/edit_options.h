@@ -27,8 +27,8 @@ Result<EditTime> parse_edit_time(const std::string& text);
 
 /// A piece of a clip. No end: up to its end.
 struct EditPiece {
-  EditTime from;
-  std::optional<EditTime> to;
+  EditTime from;               ///< its begin
+  std::optional<EditTime> to;  ///< its end; nullopt: that of the clip
 };
 
 /// "FROM-TO", "FROM-" or "-TO". Errors: invalid_argument, as parse_edit_time(); an end that does
@@ -41,18 +41,19 @@ Result<fap::Mask> parse_edit_faps(const std::string& name);
 
 /// A part of the face and a number: "brows=1.4"; without a name of all FAPs.
 struct EditAmount {
-  fap::Mask faps;
-  double value = 0;
+  fap::Mask faps;    ///< the part
+  double value = 0;  ///< factor or seconds, >= 0
 };
 /// Errors: invalid_argument (no number, or one that is negative).
 Result<EditAmount> parse_edit_amount(const std::string& text);
 
 /// Where a part of the face, the body or the rest comes from: "lips=a.fba".
 struct EditTake {
+  /// A part of the face, the body, or what no other part names.
   enum class What : std::uint8_t { face, body, rest };
-  What what = What::face;
-  fap::Mask faps;  ///< of What::face
-  std::string path;
+  What what = What::face;  ///< what is taken
+  fap::Mask faps;          ///< of What::face
+  std::string path;        ///< of the file
 };
 /// Errors: invalid_argument.
 Result<EditTake> parse_edit_take(const std::string& text);

@@ -13,8 +13,8 @@ namespace animeme::tools {
 
 /// The planes of cuts as one raw stream.
 struct EditedPlanes {
-  std::vector<std::uint8_t> stream;
-  fba::SpliceReport report;
+  std::vector<std::uint8_t> stream;  ///< with its end code
+  fba::SpliceReport report;          ///< how many planes kept their bits
 };
 
 /// Whether the cuts can be copied: all are coded, at this rate.

@@ -15,7 +15,7 @@ namespace animeme::tools {
 
 /// One input file. Its frames count from 0; frame k is shown at k / rate seconds.
 struct EditSource {
-  std::string path;
+  std::string path;         ///< of the file
   MotionInput motion;       ///< with the decoded planes, if it is a stream
   fap::Rate rate;           ///< of the face, or of the body if there is none
   std::int64_t lead = 0;    ///< frames of sound before the motion, in which its first pose is held
@@ -32,9 +32,9 @@ Result<EditSource> read_edit_source(const std::string& path);
 
 /// Frames `first` up to `end` of a source.
 struct EditCut {
-  const EditSource* source = nullptr;
-  std::int64_t first = 0;
-  std::int64_t end = 0;
+  const EditSource* source = nullptr;  ///< borrowed
+  std::int64_t first = 0;              ///< first frame
+  std::int64_t end = 0;                ///< behind the last frame
 };
 
 /// Its complete face (fap/fill.h), one frame for each of the cut, numbered from 0; no frames if it

@@ -24,6 +24,10 @@ void add_coding_options(OptionTable& cli, StreamSettings& settings) {
   cli.add("--kbps", settings.kbps, "Target bit rate of the face, kbit/s")
       ->between(1e-3, 1e6)
       ->excludes("--quant");
+  cli.add("--small", settings.small,
+          "Smallest size without a visible error: --rms 2, and planes in which nothing moves are "
+          "not sent")
+      ->excludes("--quant --rms --kbps");
 }
 
 void add_stream_options(OptionTable& cli, StreamSettings& settings) {
@@ -37,9 +41,10 @@ void add_stream_options(OptionTable& cli, StreamSettings& settings) {
 
 fba::EncodeOptions encode_options(const StreamSettings& settings) {
   fba::EncodeOptions options;
-  if (settings.rms > 0 || settings.kbps > 0) options = fba::file_options();
+  if (settings.rms > 0 || settings.kbps > 0 || settings.small) options = fba::file_options();
   options.fap_quant = settings.quant;
-  options.max_rms = settings.rms;
+  options.max_rms = settings.small ? kSmallRms : settings.rms;
+  options.skip_still = settings.small;
   options.max_bits_per_second = settings.kbps * 1000;
   return options;
 }

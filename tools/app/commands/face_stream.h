@@ -16,10 +16,14 @@ struct StreamSettings {
   int quant = 1;             ///< fap_quant
   double rms = 0;            ///< > 0: fewest bits at this error, see fba::EncodeOptions::max_rms
   double kbps = 0;           ///< > 0: smallest error at this rate
+  bool small = false;        ///< smallest size that nobody sees: an error, and still planes skipped
   double intra_seconds = 5;  ///< random access points of containers; raw streams have one
 };
 
-/// Adds --quant, --rms and --kbps.
+/// Error of --small, FAP units RMS: about that of quantiser 4.
+inline constexpr double kSmallRms = 2;
+
+/// Adds --quant, --rms, --kbps and --small.
 void add_coding_options(OptionTable& cli, StreamSettings& settings);
 
 /// Adds the same and --intra-seconds.

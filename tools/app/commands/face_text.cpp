@@ -79,11 +79,16 @@ Result<void> write_shown(const FaceText& text, const fap::Mask& mask, Pen& pen) 
   return done;
 }
 
-void warn_of_mixture(const std::string& path, const fap::Mask& mask) {
+// FAP 1 or 2 beside others.
+bool is_mixed(const fap::Mask& mask) {
   fap::Mask low = mask;
   low.reset(1);
   low.reset(2);
-  if (low == mask || low.none()) return;
+  return low != mask && low.any();
+}
+
+void warn_of_mixture(const std::string& path, const fap::Mask& mask) {
+  if (!is_mixed(mask)) return;
   warn(path +
        ": FAP 1 or 2 are used together with low-level FAPs, of which players show only one kind; "
        "--expand converts them to low-level FAPs");
@@ -150,6 +155,16 @@ Result<std::int64_t> write_face_text(OutputFile& out, const std::string& path,
 Result<std::int64_t> write_face_text(OutputFile& out, const std::string& path, const FaceText& text,
                                      const FaceExtent& extent) {
   const bool exact = text.exact || text.coded;
+  if (text.expand_mixed && !exact && !text.expand && is_mixed(extent.mask)) {
+    FaceText expanded = text;
+    expanded.expand = true;
+    const Result<FaceExtent> wider = extent_of(expanded);
+    if (!wider) return wider.error();
+    say(path +
+        ": FAP 1 and 2 are written as low-level FAPs, since players show only one kind; --exact "
+        "leaves them as they are");
+    return write_face_text(out, path, expanded, *wider);
+  }
   const fap::Rate rate = text.resampled ? *text.resampled : text.rate;
   std::int64_t frames = exact ? extent.frames : extent.shown;
   if (text.resampled) frames = fap::Resampler(text.rate, rate).frames(extent.shown);

@@ -29,7 +29,10 @@ struct FaceText {
   bool coded = false;   ///< the frames as they are, nothing held or mirrored; implies `exact`
   bool fill = false;    ///< every low-level FAP, at rest if it is never coded
   bool expand = false;  ///< FAP 1 and 2 as low-level FAPs
-  bool exact = false;   ///< not for players: the exact rate, and skipped frames stay gaps
+  /// Not with `exact`: `expand` where FAP 1 or 2 stand beside low-level FAPs, of which players show
+  /// one kind only.
+  bool expand_mixed = false;
+  bool exact = false;  ///< not for players: the exact rate, and skipped frames stay gaps
   std::optional<fap::Rate> resampled;  ///< the rate to write
 };
 

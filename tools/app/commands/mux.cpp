@@ -46,6 +46,10 @@ Result<fba::AccessUnits> for_segments(fba::AccessUnits units, const MuxOptions& 
   if (!decoded) return decoded.error();
   live::Coding coding;
   coding.intra_seconds = std::max(options.stream.intra_seconds, options.mux.fragment_seconds);
+  const fba::EncodeOptions limits = encode_options(options.stream);
+  coding.max_rms = limits.max_rms;
+  coding.max_bits_per_second = limits.max_bits_per_second;
+  coding.skip_still = limits.skip_still;
   auto again = live::with_joints(units, *decoded, coding);
   if (!again) return again.error();
   if (!*again) return units;

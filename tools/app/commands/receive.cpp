@@ -73,7 +73,7 @@ void add_options(OptionTable& cli, ReceiveOptions& options) {
       ->show_default();
   cli.add("--gap", options.gap,
           "FAP text for missing planes: hold the last values, ease to neutral, or skip the "
-          "frames (with --exact)")
+          "frames, so that numbers have no gaps (with --exact they have)")
       ->one_of("hold neutral skip")
       ->show_default();
   cli.add("--coded", options.text.coded,
@@ -112,7 +112,7 @@ media::GapRule rule_of(const std::string& name) {
 live::FapOutputOptions text_options(const ReceiveOptions& options) {
   live::FapOutputOptions text = options.text;
   text.gap = rule_of(options.gap);
-  text.exact = text.exact || text.coded || text.gap == media::GapRule::skip;
+  text.exact = text.exact || text.coded;
   return text;
 }
 

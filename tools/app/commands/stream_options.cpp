@@ -71,6 +71,18 @@ void add_coding_options(OptionTable& cli, StreamOptions& options) {
           "Quantiser (fap_quant) of faces that are encoded")
       ->between(0, 31)
       ->show_default();
+  cli.add("--rms", options.program.coding.max_rms,
+          "Clips that are known: smallest size with at most this error, FAP units RMS; 2 is not "
+          "visible")
+      ->between(1e-3, 1e6)
+      ->excludes("--quant --copy");
+  cli.add("--kbps", options.kbps, "Clips that are known: target bit rate of the face, kbit/s")
+      ->between(1e-3, 1e6)
+      ->excludes("--quant --copy");
+  cli.add("--small", options.small,
+          "Clips that are known: smallest size without a visible error, --rms 2, and planes in "
+          "which nothing moves are not sent")
+      ->excludes("--quant --copy --rms --kbps");
   cli.add("--audio-codec", options.codec,
           "aac or opus; default: that of the file, opus for --say, else aac")
       ->one_of("aac opus");
@@ -145,7 +157,8 @@ void add_options(OptionTable& cli, StreamOptions& options) {
       "--tier --speaker --speak-marks --script-format --max-seconds --speed --pitch --seed --mtu "
       "--repeat --repeat-after "
       "--bundle --max-clients --max-per-address --allow-origin --host-name --delay --intra-seconds "
-      "--points --shape-name --shape-names --gain --copy --quant --sharpness --articulate "
+      "--points --shape-name --shape-names --gain --copy --quant --rms --kbps --small --sharpness "
+      "--articulate "
       "--audio-codec --audio-bitrate");
 }
 

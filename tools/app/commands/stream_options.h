@@ -22,6 +22,8 @@ struct StreamOptions {
   HeadChoices heads;             ///< --head, for the page
   live::ProgramOptions program;  ///< what is sent, and how it is coded
   std::string codec;             ///< --audio-codec
+  double kbps = 0;               ///< --kbps
+  bool small = false;            ///< --small
   std::string rate = "25";       ///< --rate
   std::string pcm;               ///< --pcm
   std::string events;            ///< --events

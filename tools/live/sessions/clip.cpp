@@ -17,12 +17,20 @@ namespace {
 
 constexpr double kLongInterval = 2;  // seconds that a receiver may have to wait
 
+bool has_limits(const Coding& coding) {
+  return coding.max_rms > 0 || coding.max_bits_per_second > 0 || coding.skip_still;
+}
+
 Result<fba::AccessUnits> code(const fap::Sequence& face, std::span<const fba::BodyFrame> body,
                               fba::EncodeOptions options, const Coding& coding) {
   if (face.frames.empty() && body.empty()) {
     return make_error(Code::not_found, "there are no frames to stream");
   }
   options.intra_seconds = coding.intra_seconds;
+  options.max_rms = coding.max_rms;
+  options.max_bits_per_second = coding.max_bits_per_second;
+  options.skip_still = coding.skip_still;
+  options.leave_out = options.leave_out || has_limits(coding);
   const auto stream = fba::encode(face, options, body);
   if (!stream) return stream.error();
   return fba::split_access_units(*stream);
@@ -119,7 +127,9 @@ Result<std::optional<fba::AccessUnits>> with_joints(const fba::AccessUnits& unit
   // A plane of tolerance: periods are whole numbers of planes.
   const double plane = decoded.rate.seconds(1);
   const double longest = longest_intra_interval(with_true_joints(units, decoded));
-  if (longest <= coding.intra_seconds + plane) return std::optional<fba::AccessUnits>();
+  if (longest <= coding.intra_seconds + plane && !has_limits(coding)) {
+    return std::optional<fba::AccessUnits>();
+  }
   auto again = code_again(decoded, coding);
   if (!again) return again.error();
   const double begin = double(units.units.front().time) / units.timescale;
@@ -134,8 +144,9 @@ Result<fba::AccessUnits> for_live_use(fba::AccessUnits units, const fba::Decoded
     auto again = with_joints(units, decoded, coding);
     if (!again) return again.error().in_file(name);
     if (*again) {
-      log.info(name + ": re-encoded, so that receivers can join every " +
-               interval_text(coding.intra_seconds) + "; --copy keeps it unchanged");
+      log.info(name + ": re-encoded" + (has_limits(coding) ? " to be smaller" : "") +
+               ", so that receivers can join every " + interval_text(coding.intra_seconds) +
+               "; --copy keeps it unchanged");
       return std::move(**again);
     }
   }

@@ -17,12 +17,15 @@ namespace animeme::live {
 
 /// Options for encoding face and sound.
 struct Coding {
-  int quant = 1;               ///< fap_quant, 1..31
-  double intra_seconds = 1;    ///< coded streams with longer intervals are re-encoded
-  bool copy = false;           ///< never re-encode coded streams
-  bool sound = true;           ///< false: face only
-  media::AudioSettings audio;  ///< audio encoder settings
-  bool codec_given = false;    ///< re-encode sound of another codec
+  int quant = 1;       ///< fap_quant, 0..31
+  double max_rms = 0;  ///< as fba::EncodeOptions::max_rms; > 0: coded streams are re-encoded
+  double max_bits_per_second = 0;  ///< likewise; of the planes without start codes
+  bool skip_still = false;         ///< likewise
+  double intra_seconds = 1;        ///< coded streams with longer intervals are re-encoded
+  bool copy = false;               ///< never re-encode coded streams
+  bool sound = true;               ///< false: face only
+  media::AudioSettings audio;      ///< audio encoder settings
+  bool codec_given = false;        ///< re-encode sound of another codec
 };
 
 /// Coded face and sound.
@@ -31,7 +34,8 @@ struct Clip {
   media::EncodedAudio sound;  ///< no packets: silent
 };
 
-/// Encodes a clip with fba::live_options(): every intra plane is self-contained.
+/// Encodes a clip with fba::live_options(), and the limits of `coding`: every intra plane is
+/// self-contained.
 /// Errors: those of fba::encode(); not_found (no frames).
 Result<fba::AccessUnits> live_units(const fap::Sequence& clip, const Coding& coding);
 
@@ -39,7 +43,7 @@ Result<fba::AccessUnits> live_units(const fap::Sequence& clip, const Coding& cod
 double longest_intra_interval(const fba::AccessUnits& units);
 
 /// Re-encodes units of a stream, `decoded`, so that intra planes are Coding::intra_seconds apart,
-/// with the same quantisers and times; nullopt: not necessary.
+/// with the same times, and the same quantisers unless `coding` has limits; nullopt: not necessary.
 Result<std::optional<fba::AccessUnits>> with_joints(const fba::AccessUnits& units,
                                                     const fba::DecodedStream& decoded,
                                                     const Coding& coding);

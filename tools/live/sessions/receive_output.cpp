@@ -57,7 +57,7 @@ Result<void> check_place(const std::string& output) {
 
 FapOutput::FapOutput(const std::string& output, const FapOutputOptions& options)
     : output_(output), options_(options), frames_(options.gap, shown_by(options)) {
-  options_.exact = options.exact || options.coded || options.gap == media::GapRule::skip;
+  options_.exact = options.exact || options.coded;
 }
 
 std::string FapOutput::header(std::int64_t frames) const {
@@ -69,8 +69,11 @@ Result<std::string> FapOutput::push(const media::LiveUnit& unit, std::uint32_t t
                                     bool after_gap) {
   std::string text;
   if (!wanted() || unit.track != media::LiveTrack::face) return text;
-  const std::vector<fap::Frame> frames = frames_.push(unit, timescale, after_gap);
+  std::vector<fap::Frame> frames = frames_.push(unit, timescale, after_gap);
   if (frames.empty()) return text;
+  if (options_.gap == media::GapRule::skip && !options_.exact) {
+    for (std::size_t i = 0; i < frames.size(); ++i) frames[i].number = count_ + std::int64_t(i);
+  }
   if (count_ == 0) text = header(0);
   for (const fap::Frame& frame : frames) fap::append_text(text, frame);
   count_ += std::int64_t(frames.size());

@@ -23,11 +23,13 @@ Result<void> check_place(const std::string& output);
 
 /// Options for text output.
 struct FapOutputOptions {
-  media::GapRule gap = media::GapRule::hold;  ///< frames while planes are missing
-  bool coded = false;                         ///< frames as coded; implies `exact`
-  bool fill = false;                          ///< every FAP, at rest if it was never sent
-  bool expand = false;                        ///< FAP 1 and 2 as low-level FAPs
-  bool exact = false;  ///< write the exact rate in the header, although players need an integer
+  /// Frames while planes are missing. With `skip` the others are numbered without gaps, as players
+  /// need them; with `exact` they keep their numbers.
+  media::GapRule gap = media::GapRule::hold;
+  bool coded = false;   ///< frames as coded; implies `exact`
+  bool fill = false;    ///< every FAP, at rest if it was never sent
+  bool expand = false;  ///< FAP 1 and 2 as low-level FAPs
+  bool exact = false;   ///< write the exact rate in the header, although players need an integer
 };
 
 /// Writes frames as text as they arrive, to standard output or to a file, flushed after each frame.

@@ -139,8 +139,8 @@ int soak(const Settings& settings) {
   std::mt19937 random(settings.seed);
   const int rtp = free_udp_ports(), web = free_tcp_port();
   const std::string http = "127.0.0.1:" + std::to_string(web), sdp = folder + "/talk.sdp";
-  const std::vector<std::string> text = {"--gap", "skip",      "--fill", "--wait",
-                                         "0",     "--timeout", "0"};
+  const std::vector<std::string> text = {"--gap",  "skip", "--exact",   "--fill",
+                                         "--wait", "0",    "--timeout", "0"};
   const auto receiver = [&](const std::string& from, const std::string& name) {
     std::vector<std::string> all = {"receive", from, "-o", folder + "/" + name + "%.fap"};
     all.insert(all.end(), text.begin(), text.end());
