@@ -33,7 +33,9 @@ bool in_segments(const std::string& path) {
 }
 
 // A segment begins where playing can begin, so a stream with one such point would be one segment.
-Result<fba::AccessUnits> for_segments(fba::AccessUnits units, const MuxOptions& options) {
+// `coded`: the input was, so that limits of error or rate have not been applied yet.
+Result<fba::AccessUnits> for_segments(fba::AccessUnits units, bool coded,
+                                      const MuxOptions& options) {
   const double longest = live::longest_intra_interval(units);
   if (options.copy) {
     if (longest > options.mux.fragment_seconds + options.stream.intra_seconds) {
@@ -46,7 +48,7 @@ Result<fba::AccessUnits> for_segments(fba::AccessUnits units, const MuxOptions& 
   if (!decoded) return decoded.error();
   live::Coding coding;
   coding.intra_seconds = std::max(options.stream.intra_seconds, options.mux.fragment_seconds);
-  const fba::EncodeOptions limits = encode_options(options.stream);
+  const fba::EncodeOptions limits = coded ? encode_options(options.stream) : fba::EncodeOptions();
   coding.max_rms = limits.max_rms;
   coding.max_bits_per_second = limits.max_bits_per_second;
   coding.skip_still = limits.skip_still;
@@ -59,7 +61,8 @@ Result<fba::AccessUnits> for_segments(fba::AccessUnits units, const MuxOptions& 
 }
 
 // A face out of a container keeps its times, which its planes alone would not tell.
-Result<fba::AccessUnits> read_units(const MuxOptions& options) {
+// `coded` receives whether it is a stream.
+Result<fba::AccessUnits> read_units(const MuxOptions& options, bool& coded) {
   Result<std::vector<std::uint8_t>> bytes = read_input(options.face);
   if (!bytes) return bytes.error();
   if (kind_of(*bytes) == FileKind::media) {
@@ -69,6 +72,7 @@ Result<fba::AccessUnits> read_units(const MuxOptions& options) {
   }
   Result<FaceInput> face = parse_face(std::move(*bytes), options.face);
   if (!face) return face.error();
+  coded = !face->stream.empty();
   return access_units(*face, options.stream);
 }
 
@@ -93,11 +97,12 @@ Result<speech::SoundInput> sound_of(const MuxOptions& options) {
 }
 
 Result<int> run(MuxOptions options) {
-  Result<fba::AccessUnits> units = read_units(options);
+  bool coded = true;
+  Result<fba::AccessUnits> units = read_units(options, coded);
   if (!units) return units.error().in_file(options.face);
   const bool one_point = options.stream.intra_seconds == 0;  // is asked for
   if (in_segments(options.output) && !one_point) {
-    units = for_segments(std::move(*units), options);
+    units = for_segments(std::move(*units), coded, options);
     if (!units) return units.error().in_file(options.face);
   }
   const Result<speech::SoundInput> sound = sound_of(options);
