@@ -94,13 +94,21 @@ struct Shown {
   }
 };
 
-// What was coded with another quantiser becomes the nearest that this one can code.
+// What an intra plane cannot code becomes the nearest that it can: levels of another quantiser, and
+// what predictive planes of a damaged stream have reached.
 void hold_levels(fap::Frame& face, int fap_quant) {
   const std::int32_t step = fap_scale(fap_quant);
   for (std::int32_t* value :
        {&face.viseme.blend, &face.expression.intensity1, &face.expression.intensity2}) {
     const std::int64_t level = internal::quantise(*value, step);
-    *value = step * std::int32_t(std::min<std::int64_t>(level, blend_range(fap_quant)));
+    *value = step * std::int32_t(std::clamp<std::int64_t>(level, 0, blend_range(fap_quant)));
+  }
+  for (std::int32_t* select : {&face.viseme.select1, &face.viseme.select2}) {
+    *select = std::clamp(*select, 0, internal::high_level_max(internal::kVisemeSelect1, fap_quant));
+  }
+  for (std::int32_t* select : {&face.expression.select1, &face.expression.select2}) {
+    *select =
+        std::clamp(*select, 0, internal::high_level_max(internal::kExpressionSelect1, fap_quant));
   }
 }
 
@@ -212,12 +220,15 @@ struct Splicer::Impl {
     // Without a face, or a body, the source shows none that moves.
     if (!source.face.settings && out.face.mask.any()) source.face.begin(FaceSettings());
     if (!source.body.settings && out.body.mask.any()) source.body.begin(BodySettings());
-    const bool as_it_is = state == State::all || (plane.intra && is_complete(plane));
+    const bool as_it_is =
+        (state == State::all && !may_get_lost(plane)) || (plane.intra && is_complete(plane));
     if (as_it_is) {
       if (auto ok = put(verbatim(plane, skip)); !ok) return ok;
       state = State::all;
     } else if (state == State::nothing || plane.intra || !write_predictive(plane, skip)) {
       if (auto ok = write_intra(plane, skip); !ok) return ok;
+      state = State::values;
+    } else {
       state = State::values;
     }
     rate = plane.rate;  // an intra plane has sent it
@@ -257,8 +268,21 @@ struct Splicer::Impl {
     return ok;
   }
 
+  // A plane without face and body is so short that decoders take it for stuffing, where it ends a
+  // byte before a start code. Behind a cut planes lie elsewhere in their bytes than in the source.
+  bool may_get_lost(const Plane& plane) const {
+    return plane.object_mask == ObjectMask::nothing && cut &&
+           options.plane_start_codes != PlaneStartCodes::all && families() != ObjectMask::nothing;
+  }
+
+  // What the source has coded so far.
+  ObjectMask families() const {
+    return ObjectMask((source.face.settings ? 1 : 0) | (source.body.settings ? 2 : 0));
+  }
+
   bool write_predictive(const Plane& plane, std::optional<std::uint32_t> skip) {
-    if (!put(input(plane.object_mask, skip))) return false;
+    const ObjectMask mask = may_get_lost(plane) ? families() : plane.object_mask;
+    if (!put(input(mask, skip))) return false;
     if (!encoder.hazard()) return true;
     encoder.drop();
     return false;
@@ -266,7 +290,7 @@ struct Splicer::Impl {
 
   // Everything of the source, with the ranges in force.
   Result<void> write_intra(const Plane& plane, std::optional<std::uint32_t> skip) {
-    const auto mask = ObjectMask((source.face.settings ? 1 : 0) | (source.body.settings ? 2 : 0));
+    const ObjectMask mask = families();
     Shown shown = source.shown;
     for (int detour = 0;; ++detour) {
       PlaneInput intra = input(mask, skip);
@@ -328,6 +352,8 @@ struct Splicer::Impl {
     bool differs = false;
     if (has_face(plane.object_mask) || state == State::values) {
       const fap::Frame& want = source.shown.face;
+      differs = (want.mask[1] && !same_look(want.viseme, out.face.viseme)) ||
+                (want.mask[2] && !same_look(want.expression, out.face.expression));
       for (std::size_t fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
         differs |= want.mask[fap] && out.face.mask[fap] && out.face.value[fap] != want.value[fap];
       }

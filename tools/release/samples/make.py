@@ -173,8 +173,8 @@ class Glb:
 
 
 def cells(places, normals, opening, size_of):
-    """A number for each vertex: those in a cell that look the same way are one. Lips that touch stay apart by
-    what jawOpen does."""
+    """A number for each vertex: those in a cell that look the same way are one. Lips and lids that are close stay
+    apart by what jawOpen and blinks do."""
     number_of, of_vertex, members = {}, [], []
     for i, place in enumerate(places):
         size = size_of(place)
@@ -251,6 +251,7 @@ SHAPES = {"jawOpen", "mouthClose", "mouthFunnel", "mouthPucker", "mouthRollLower
 SHAPES |= {"%s%s" % (name, side) for side in ("Left", "Right")
            for name in ("mouthStretch", "mouthSmile", "mouthLowerDown", "mouthUpperUp", "eyeBlink")}
 MOUTH = (0, -0.06, 0.092)
+EYES = ((-0.0315, 0, 0.08), (0.0315, 0, 0.08))  # lids
 COLOURS = {"skin": (0.75, 0.5, 0.4), "upper_teeth": (0.85, 0.85, 0.8), "lower_teeth": (0.85, 0.85, 0.8),
            "tongue": (0.7, 0.3, 0.3), "hair": (0.15, 0.08, 0.04), "brows": (0.15, 0.08, 0.04),
            "left_eye": (0.9, 0.9, 0.9), "right_eye": (0.9, 0.9, 0.9)}
@@ -268,12 +269,14 @@ def write_small_head():
         places = [tuple(p + d for p, d in zip(v, moved)) for v in head.read(part["attributes"]["POSITION"])]
         shapes = mesh.get("extras", {}).get("targetNames", [])
         moves = [head.read(t["POSITION"]) for t in part.get("targets", [])]
-        opening = [v[1] for v in moves[shapes.index("jawOpen")]] if "jawOpen" in shapes else [0] * len(places)
+        opening = [sum(moves[shapes.index(s)][i][1] for s in ("jawOpen", "eyeBlinkLeft", "eyeBlinkRight")
+                       if s in shapes) for i in range(len(places))]
         def size_of(place, name=name):
             if name != "skin":
                 return 0.03 if name == "hair" else 0.012
             near = math.dist(place, MOUTH)
-            return 0.006 if near < 0.034 else 0.012 if near < 0.08 else 0.026
+            eye = min(math.dist(place, e) for e in EYES)
+            return 0.006 if near < 0.034 or eye < 0.02 else 0.012 if near < 0.08 else 0.026
 
         of_vertex, members = cells(places, head.read(part["attributes"]["NORMAL"]), opening, size_of)
         faces = [v[0] for v in head.read(part["indices"])]
