@@ -220,6 +220,8 @@ struct Splicer::Impl {
     // Without a face, or a body, the source shows none that moves.
     if (!source.face.settings && out.face.mask.any()) source.face.begin(FaceSettings());
     if (!source.body.settings && out.body.mask.any()) source.body.begin(BodySettings());
+    // Nothing has been coded yet: a face at rest is long enough not to get lost.
+    if (cut && families() == ObjectMask::nothing) source.face.begin(FaceSettings());
     const bool as_it_is =
         (state == State::all && !may_get_lost(plane)) || (plane.intra && is_complete(plane));
     if (as_it_is) {
