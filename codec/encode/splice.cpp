@@ -221,7 +221,10 @@ struct Splicer::Impl {
     if (!source.face.settings && out.face.mask.any()) source.face.begin(FaceSettings());
     if (!source.body.settings && out.body.mask.any()) source.body.begin(BodySettings());
     // Nothing has been coded yet: a face at rest is long enough not to get lost.
-    if (cut && families() == ObjectMask::nothing) source.face.begin(FaceSettings());
+    if (may_get_lost(plane) && families() == ObjectMask::nothing) {
+      source.face.begin(FaceSettings());
+      state = State::nothing;
+    }
     const bool as_it_is =
         (state == State::all && !may_get_lost(plane)) || (plane.intra && is_complete(plane));
     if (as_it_is) {
@@ -271,10 +274,10 @@ struct Splicer::Impl {
   }
 
   // A plane without face and body is so short that decoders take it for stuffing, where it ends a
-  // byte before a start code. Behind a cut planes lie elsewhere in their bytes than in the source.
+  // byte before a start code: that of the next plane, or the end code.
   bool may_get_lost(const Plane& plane) const {
-    return plane.object_mask == ObjectMask::nothing && cut &&
-           options.plane_start_codes != PlaneStartCodes::all && families() != ObjectMask::nothing;
+    return plane.object_mask == ObjectMask::nothing &&
+           options.plane_start_codes != PlaneStartCodes::all;
   }
 
   // What the source has coded so far.

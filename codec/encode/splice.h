@@ -26,8 +26,8 @@ namespace animeme::fba {
 /// How many planes a Splicer wrote.
 struct SpliceReport {
   std::size_t planes = 0;  ///< all
-  /// Those whose bits are not the bits of their source: from a cut to the next intra plane that
-  /// sends all four sets of ranges.
+  /// Those whose bits are not the bits of their source: mostly from a cut to the next intra plane
+  /// that sends all four sets of ranges.
   std::size_t recoded = 0;
   /// Planes with a value that differs from that of the source: one beyond +-1860 quantiser steps,
   /// which predictive planes reach and the intra plane of a cut does not, or one that an earlier
@@ -38,7 +38,9 @@ struct SpliceReport {
 /// Writes planes of decoded streams one after the other. A plane that follows the plane before it
 /// in the same stream keeps its bits. At a cut the first plane becomes an intra plane that holds
 /// everything that was coded so far, and the planes up to the next intra plane are coded again,
-/// with the same quantiser, masks and ranges, so that their values stay.
+/// with the same quantiser, masks and ranges, so that their values stay. So are planes without face
+/// and body unless each plane has a start code: decoders would take them for stuffing in front of
+/// one.
 ///
 /// Movable, not copyable, not thread safe. Memory does not grow with the stream, if take() is
 /// called. Source: codec/bitstream.md, sections 2 to 5.

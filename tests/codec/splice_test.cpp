@@ -211,7 +211,12 @@ TEST(Splicer, CopiesReferenceStreamsByteForByteAndCutsThem) {
     SCOPED_TRACE(base.string());
     const std::int64_t end = length(*ours);
     const Spliced whole = splice({{&*ours, 0, end}}, fba::PlaneStartCodes::none);
-    EXPECT_EQ(whole.report.recoded, 0u);
+    // Planes without face and body get lost where a start code follows, so they get a face.
+    const auto nothing = std::ranges::count_if(ours->planes, [](const fba::Plane& plane) {
+      return plane.object_mask == fba::ObjectMask::nothing;
+    });
+    EXPECT_EQ(whole.report.recoded == 0, nothing == 0);
+    if (nothing > 0) continue;
     const fba::DecodedStream copy = decoded(whole.stream);
     for (std::size_t i = 0; i < ours->planes.size(); ++i) {
       ASSERT_EQ(bits(whole.stream, copy.planes[i]), bits(stream, ours->planes[i])) << i;
