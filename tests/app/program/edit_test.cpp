@@ -171,6 +171,9 @@ TEST(EditCommand, CopyMovesCutsToIntraPlanes) {
   EXPECT_THAT(ran.err, AllOf(HasSubstr("0.920 s moves to the intra plane at 0.800 s"),
                              HasSubstr("30 planes, all copied")));
   EXPECT_EQ(rows(dir / "c.fba"), part(talks().rows_a, 20, 50));
+  const auto report =
+      animeme({"edit", dir / "a.fba", "--from", "0.9", "--json", "-o", dir / "e.fba"});
+  EXPECT_THAT(report.out, AllOf(HasSubstr("\"recoded\": 7"), HasSubstr("\"changed\": 0")));
   const auto text =
       animeme({"edit", dir / "a.fap", "--copy", "--from", "0.9", "-o", dir / "d.fba"});
   EXPECT_EQ(text.exit_code, 3);

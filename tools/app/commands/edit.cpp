@@ -15,6 +15,7 @@
 #include "tools/app/commands/outputs.h"
 #include "tools/app/commands/report.h"
 #include "tools/formats/common/text.h"
+#include "tools/formats/files/cost.h"
 
 namespace animeme::tools {
 
@@ -196,7 +197,9 @@ bool is_container(const std::string& path) {
 std::string tell_planes(const fba::SpliceReport& report) {
   std::string text = std::to_string(report.planes) + " planes, ";
   text += report.recoded == 0 ? std::string("all copied")
-                              : std::to_string(report.recoded) + " of them coded again behind cuts";
+          : report.recoded == report.planes
+              ? std::string("all coded again behind cuts")
+              : std::to_string(report.recoded) + " of them coded again behind cuts";
   if (report.changed > 0) {
     text += format(", %zu of those with the nearest value that a quantiser allows", report.changed);
   }
@@ -302,11 +305,15 @@ Result<int> run(EditSettings options) {
   if (writes_text(extension_of(options.output))) return write_text(plan, options);
   std::vector<std::uint8_t> stream;
   std::string planes;
+  Json facts;
   if (!plan.changes.any() && !options.quant_given && can_copy(plan.shown, plan.rate)) {
     auto copied = copy_planes(plan.shown, plan.changes.hold, container);
     if (!copied) return copied.error();
     stream = std::move(copied->stream);
     planes = tell_planes(copied->report);
+    facts = {{"planes", copied->report.planes},
+             {"recoded", copied->report.recoded},
+             {"changed", copied->report.changed}};
   } else if (options.copy) {
     return make_error(Code::unsupported,
                       "only FBA streams of one frame rate can be copied; leave --copy out")
@@ -317,15 +324,17 @@ Result<int> run(EditSettings options) {
     auto coded = coded_again(*motion, options);
     if (!coded) return coded.error();
     stream = std::move(*coded);
-    planes = std::to_string(std::max(motion->face.frames.size(), motion->body.frames.size())) +
-             " planes coded again";
+    const std::size_t count = std::max(motion->face.frames.size(), motion->body.frames.size());
+    planes = std::to_string(count) + " planes coded again";
+    facts = {{"planes", count}, {"recoded", count}};
   }
   if (container) {
     say(name_of_output(options.output) + ": " + planes);
     return write_container(plan, options, stream);
   }
   if (auto written = write_file(options.output, stream); !written) return written.error();
-  report_output(options.output, planes, {{"bytes", stream.size()}});
+  facts["bytes"] = stream.size();
+  report_output(options.output, planes, facts);
   return kOk;
 }
 
