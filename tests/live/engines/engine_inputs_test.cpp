@@ -202,6 +202,16 @@ TEST(EngineInputs, APauseOfThePhoneIsAGap) {
   EXPECT_EQ(got.frames.size(), 150u);
   EXPECT_EQ(got.frames[99].number, 99);
   EXPECT_EQ(got.frames[100].number, 200);
+  // The object begins once; each further unit is a plane behind its start code.
+  bool first = true;
+  for (const media::LiveEvent& event : got.events) {
+    const auto* unit = std::get_if<media::LiveUnit>(&event);
+    if (unit == nullptr) continue;
+    ASSERT_GT(unit->bytes.size(), 4u);
+    EXPECT_EQ(unit->bytes[2], 1);
+    EXPECT_EQ(unit->bytes[3], first ? 0xBA : 0xBB);
+    first = false;
+  }
 }
 
 TEST(EngineInputs, OfTwoPhonesTheFirstIsHeard) {

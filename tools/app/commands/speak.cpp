@@ -463,8 +463,9 @@ void add_options(OptionTable& cli, SpeakOptions& options) {
           "with a lower confidence, 0 to 1; 0: accept any transcript")
       ->between(0.0, 1.0);
   cli.add("--json", options.json, "Print a machine-readable summary");
-  cli.show_in_help_all("Details of coding and alignment",
-                       "--intra-seconds --audio-codec --audio-bitrate --exact --min-confidence");
+  cli.show_in_help_all(
+      "Details of coding and alignment",
+      "--rms --kbps --intra-seconds --audio-codec --audio-bitrate --exact --min-confidence");
 }
 
 }  // namespace

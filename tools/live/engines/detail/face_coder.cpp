@@ -16,9 +16,9 @@ constexpr double kLongEnough = 1;    // seconds likewise
 constexpr double kUntimed = 2;       // seconds of those that have no time of their own
 constexpr std::size_t kMostWaiting = 1000;
 constexpr int kCommon[] = {15, 24, 25, 30, 45, 48, 50, 60, 72, 75, 90, 100, 120};
-constexpr double kNearby = 0.08;  // share that a rate is off one in common use
-constexpr std::ptrdiff_t kStartCodeBytes = 4;
-constexpr double kMostFilled = 1;  // seconds that are filled in
+constexpr double kNearby = 0.08;            // share that a rate is off one in common use
+constexpr std::ptrdiff_t kObjectBytes = 5;  // its start code, and a byte of stuffing
+constexpr double kMostFilled = 1;           // seconds that are filled in
 
 int snapped(double rate) {
   const int common =
@@ -98,7 +98,7 @@ Result<void> FaceCoder::code(const fap::ArkitFrame& values, std::deque<media::Li
   unit.bytes = std::move(*bytes);
   // The object begins once: what comes behind a gap is the same stream.
   if (std::exchange(fresh_, false) && std::exchange(begun_, true)) {
-    unit.bytes.erase(unit.bytes.begin(), unit.bytes.begin() + kStartCodeBytes);
+    unit.bytes.erase(unit.bytes.begin(), unit.bytes.begin() + kObjectBytes);
   }
   unit.intra = encoder_->intra();
   unit.time = *last_ * ticks_;
