@@ -6,6 +6,7 @@
 #include "tools/app/commands/shard.h"
 #include "tools/app/commands/train_base.h"
 #include "tools/app/commands/train_parts.h"
+#include "tools/formats/common/text.h"
 
 namespace animeme::tools {
 
