@@ -5,6 +5,7 @@
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/outputs.h"
 #include "tools/formats/common/json.h"
+#include "tools/formats/common/text.h"
 #include "tools/formats/media/container.h"
 
 namespace animeme::tools {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <filesystem>
 
 #include "dam/script/script.h"
 #include "tools/app/commands/common.h"

@@ -11,6 +11,7 @@
 #include "tools/app/commands/command.h"
 #include "tools/app/commands/report.h"
 #include "tools/formats/common/code_name.h"
+#include "tools/formats/files/files.h"
 
 namespace animeme::tools {
 
