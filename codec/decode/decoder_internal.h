@@ -4,18 +4,26 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "codec/decode/decoder.h"
 #include "codec/decode/plane_reader_internal.h"
 #include "codec/syntax/bits.h"
+#include "codec/syntax/plane.h"
 
 namespace animeme::fba {
 
 namespace internal {
 
 inline constexpr std::size_t kPieceBytes = std::size_t(1) << 14;  // what decode() pushes at a time
+
+// Whether the bytes behind an end code are another stream.
+inline bool begins_stream(std::span<const std::uint8_t> bytes) {
+  const std::uint32_t code = BitReader(bytes).peek32(0);
+  return code == kSequenceStart || is_object_start(code);
+}
 
 }  // namespace internal
 

@@ -281,12 +281,6 @@ std::vector<AccessUnit> units_of(std::span<const Kept> kept, std::span<const Pie
   return units;
 }
 
-// Another stream, behind the end code of one.
-bool begins_stream(std::span<const std::uint8_t> bytes) {
-  const std::uint32_t code = BitReader(bytes).peek32(0);
-  return code == kSequenceStart || is_object_start(code);
-}
-
 // Cuts a raw stream at its start codes: what lies before the first object or plane is left out, an
 // end code ends it. A start code of something else ends an object (codec/bitstream.md, section 1);
 // where planes go on behind it, it was that of a plane.
@@ -312,7 +306,7 @@ Cut cut(std::span<const std::uint8_t> stream) {
     const std::uint32_t code = in.peek32(at * 8);
     if (code == kSequenceEnd) {
       close(at, false);
-      if (begins_stream(stream.subspan(at + 4))) continue;
+      if (internal::begins_stream(stream.subspan(at + 4))) continue;
       out.ended = true;
       return out;
     }
@@ -380,7 +374,7 @@ Soundness soundness(std::span<const std::uint8_t> stream) {
     return piece;
   };
   const Soundness found = soundness(next, &end);
-  const bool more = found == Soundness::sound && begins_stream(stream.subspan(end));
+  const bool more = found == Soundness::sound && internal::begins_stream(stream.subspan(end));
   return more ? Soundness::doubtful : found;
 }
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "codec/decode/decoder_internal.h"
 #include "codec/encode/plane_levels_internal.h"
-#include "codec/syntax/bits.h"
 #include "codec/syntax/quantise_internal.h"
 #include "codec/syntax/settings_internal.h"
 #include "codec/syntax/state_internal.h"
@@ -152,6 +152,12 @@ struct Splicer::Impl {
 
   explicit Impl(const StreamOptions& given) : options(given), encoder(given) {}
 
+  // A cut: what is written next does not follow what was written.
+  void part() {
+    state = State::nothing;
+    cut = true;
+  }
+
   void see(const Plane& plane) {
     source.last = plane;
     if (has_face(plane.object_mask)) {
@@ -230,10 +236,11 @@ struct Splicer::Impl {
     if (as_it_is) {
       if (auto ok = put(verbatim(plane, skip)); !ok) return ok;
       state = State::all;
-    } else if (state == State::nothing || plane.intra || !write_predictive(plane, skip)) {
-      if (auto ok = write_intra(plane, skip); !ok) return ok;
-      state = State::values;
     } else {
+      const bool follows = state != State::nothing && !plane.intra;
+      if (!follows || !write_predictive(plane, skip)) {
+        if (auto ok = write_intra(plane, skip); !ok) return ok;
+      }
       state = State::values;
     }
     rate = plane.rate;  // an intra plane has sent it
@@ -382,25 +389,21 @@ Splicer::~Splicer() = default;
 
 void Splicer::begin_source() {
   impl_->source = {};
-  if (impl_->report.planes == 0) return;
-  impl_->state = Impl::State::nothing;
-  impl_->cut = true;
+  if (impl_->report.planes > 0) impl_->part();
 }
 
 void Splicer::pass(const Plane& plane) {
   impl_->see(plane);
-  impl_->state = Impl::State::nothing;
-  impl_->cut = true;
+  impl_->part();
 }
 
 Result<void> Splicer::copy(const Plane& plane) { return impl_->copy(plane, plane.temporal.skip); }
 Result<void> Splicer::copy(const Plane& plane, std::uint32_t skip) {
-  const bool plain = skip == 0 && plane.temporal.skip.value_or(1) != 0;
-  return impl_->copy(plane, plain ? std::nullopt : std::optional(skip));
+  if (skip == 0 && plane.temporal.skip != 0U) return impl_->copy(plane, std::nullopt);
+  return impl_->copy(plane, skip);
 }
 Result<void> Splicer::copy_last(std::uint32_t skip) {
-  impl_->state = Impl::State::nothing;
-  impl_->cut = true;
+  impl_->part();
   return impl_->write(skip > 0 ? std::optional(skip) : std::nullopt);
 }
 
@@ -429,25 +432,38 @@ std::vector<std::uint8_t> Splicer::finish() {
   return all;
 }
 
+namespace {
+
+// Takes all planes of the first stream. The bytes behind its end code; nullopt: it is damaged.
+template <class Take>
+std::optional<std::span<const std::uint8_t>> read_stream(std::span<const std::uint8_t> bytes,
+                                                         const Take& take) {
+  Decoder decoder;
+  decoder.push(bytes);
+  decoder.finish();
+  Result<Event> event = decoder.next();
+  for (; event; event = decoder.next()) {
+    if (event->kind == Event::Kind::plane && !take(event->plane)) return std::nullopt;
+  }
+  if (event.error().code != Code::end_of_stream) return std::nullopt;
+  return bytes.subspan(std::size_t(event.error().where.bit / 8));
+}
+
+}  // namespace
+
 std::optional<JoinedStreams> join_streams(std::span<const std::uint8_t> bytes) {
+  const auto behind = read_stream(bytes, [](const Plane&) { return true; });
+  if (!behind || !internal::begins_stream(*behind)) return std::nullopt;
   Splicer splicer;
   JoinedStreams joined;
-  for (bool more = true; more;) {
-    Decoder decoder;
-    decoder.push(bytes);
-    decoder.finish();
+  while (joined.count == 0 || internal::begins_stream(bytes)) {
     splicer.begin_source();
     ++joined.count;
-    Result<Event> event = decoder.next();
-    for (; event; event = decoder.next()) {
-      if (event->kind == Event::Kind::plane && !splicer.copy(event->plane)) return std::nullopt;
-    }
-    if (event.error().code != Code::end_of_stream) return std::nullopt;
-    bytes = bytes.subspan(std::size_t(event.error().where.bit / 8));
-    const std::uint32_t next = BitReader(bytes).peek32(0);
-    more = next == kSequenceStart || is_object_start(next);
+    const auto rest =
+        read_stream(bytes, [&](const Plane& plane) { return splicer.copy(plane).has_value(); });
+    if (!rest) return std::nullopt;
+    bytes = *rest;
   }
-  if (joined.count < 2) return std::nullopt;
   joined.stream = splicer.finish();
   return joined;
 }
