@@ -4,7 +4,7 @@
 #include <array>
 
 #include "dam/maths/raised_cosine.h"
-#include "dam/script/phones.h"
+#include "dam/speaking/shown_phones_internal.h"
 #include "fap/tables.h"
 
 namespace animeme::dam {
@@ -26,25 +26,21 @@ double presence(double time, double start, double end, double before, double aft
 }  // namespace
 
 VisemeCurves::VisemeCurves(const Script& script) {
-  for (std::size_t i = 0; i < script.phones.size(); ++i) {
-    const Phone& phone = script.phones[i];
-    std::size_t shown = i;
-    while (shown + 1 < script.phones.size() && script.phones[shown].label == "HH") ++shown;
-    const PhoneInfo* info = find_phone(script.phones[shown].label);
-    const int begin = info == nullptr ? 0 : info->viseme_start;
-    const int end = info == nullptr || shown != i ? begin : info->viseme_end;
+  for (const internal::ShownPhone& phone : internal::shown_phones(script)) {
     const double middle = (phone.start + phone.end) / 2;
-    if (begin == end) {
-      add(phone.start, phone.end, begin);
+    if (phone.first == phone.last) {
+      add(phone.start, phone.end, phone.first);
     } else {
-      add(phone.start, middle, begin);
-      add(middle, phone.end, end);
+      add(phone.start, middle, phone.first);
+      add(middle, phone.end, phone.last);
     }
-    const bool dental = info != nullptr && info->phone_class == PhoneClass::dental;
-    if (info == nullptr || shown != i) continue;
-    if (!info->bilabial && !info->labiodental && !dental) continue;
-    const double half = std::max(kLeastContact, kContactShare * phone.duration());
-    contacts_.push_back({middle - half, middle + half, kContactComes, kContactComes, begin, 1});
+    const PhoneInfo* own = phone.own;
+    if (own == nullptr) continue;
+    const bool dental = own->phone_class == PhoneClass::dental;
+    if (!own->bilabial && !own->labiodental && !dental) continue;
+    const double half = std::max(kLeastContact, kContactShare * (phone.end - phone.start));
+    contacts_.push_back(
+        {middle - half, middle + half, kContactComes, kContactComes, phone.first, 1});
   }
   const auto by_start = [](const Sound& a, const Sound& b) { return a.start < b.start; };
   std::stable_sort(sounds_.begin(), sounds_.end(), by_start);
@@ -71,32 +67,34 @@ void VisemeCurves::limit_contacts() {
   }
 }
 
+// Calls `take` with each that is there and its presence, 0 to 1.
+template <class Take>
+void VisemeCurves::for_present(const std::vector<Sound>& sounds, double seconds, double comes,
+                               const Take& take) const {
+  auto sound = std::lower_bound(sounds.begin(), sounds.end(), seconds - longest_,
+                                [](const Sound& one, double time) { return one.start < time; });
+  for (; sound != sounds.end() && sound->start <= seconds + comes; ++sound) {
+    take(*sound, presence(seconds, sound->start, sound->end, sound->before, sound->after));
+  }
+}
+
 fap::VisemeWeights VisemeCurves::at(double seconds) const {
   fap::VisemeWeights weights{};
   double sum = 0, present = 0;
-  const auto first =
-      std::lower_bound(sounds_.begin(), sounds_.end(), seconds - longest_,
-                       [](const Sound& sound, double time) { return sound.start < time; });
-  for (auto sound = first; sound != sounds_.end() && sound->start <= seconds + kSoundComes;
-       ++sound) {
-    const double share = presence(seconds, sound->start, sound->end, sound->before, sound->after);
-    weights[std::size_t(sound->viseme)] += share * sound->dominance;
-    sum += share * sound->dominance;
+  for_present(sounds_, seconds, kSoundComes, [&](const Sound& sound, double share) {
+    weights[std::size_t(sound.viseme)] += share * sound.dominance;
+    sum += share * sound.dominance;
     present = std::max(present, share);
-  }
+  });
   // Where nothing is quite there it is silent.
   const double scale = sum > 0 ? present / sum : 0;
   for (double& weight : weights) weight *= scale;
   fap::VisemeWeights touch{};
   double touching = 0;
-  const auto contact =
-      std::lower_bound(contacts_.begin(), contacts_.end(), seconds - longest_,
-                       [](const Sound& sound, double time) { return sound.start < time; });
-  for (auto one = contact; one != contacts_.end() && one->start <= seconds + kContactComes; ++one) {
-    const double share = presence(seconds, one->start, one->end, one->before, one->after);
-    touch[std::size_t(one->viseme)] += share;
+  for_present(contacts_, seconds, kContactComes, [&](const Sound& sound, double share) {
+    touch[std::size_t(sound.viseme)] += share;
     touching += share;
-  }
+  });
   const double whole = std::max(touching, 1.0);
   double rest = 1;
   for (std::size_t v = 1; v < weights.size(); ++v) {

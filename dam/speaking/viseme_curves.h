@@ -40,6 +40,9 @@ class VisemeCurves {
 
   void add(double start, double end, int viseme);
   void limit_contacts();
+  template <class Take>
+  void for_present(const std::vector<Sound>& sounds, double seconds, double comes,
+                   const Take& take) const;
 
   std::vector<Sound> sounds_;    // by start; also those that touch
   std::vector<Sound> contacts_;  // by start; shown alone in their middle

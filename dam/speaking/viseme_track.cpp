@@ -8,7 +8,7 @@
 #include <limits>
 #include <numeric>
 
-#include "dam/script/phones.h"
+#include "dam/speaking/shown_phones_internal.h"
 #include "fap/tables.h"
 #include "fap/viseme.h"
 
@@ -65,21 +65,15 @@ double square_of_difference(const Mouth& a, const Mouth& b) {
 
 std::vector<Sound> sounds_of(const Script& script) {
   std::vector<Sound> sounds;
-  for (std::size_t i = 0; i < script.phones.size(); ++i) {
-    const Phone& phone = script.phones[i];
-    std::size_t shown = i;
-    while (shown + 1 < script.phones.size() && script.phones[shown].label == "HH") ++shown;
-    const PhoneInfo* info = find_phone(script.phones[shown].label);
-    const int begin = info == nullptr ? 0 : info->viseme_start;
-    const int end = info == nullptr || shown != i ? begin : info->viseme_end;
-    const bool contact = begin == 1 || begin == 2;
-    if (begin == end) {
-      sounds.push_back({phone.start, phone.end, begin, contact && shown == i});
+  for (const internal::ShownPhone& phone : internal::shown_phones(script)) {
+    if (phone.first == phone.last) {
+      const bool contact = phone.own != nullptr && (phone.first == 1 || phone.first == 2);
+      sounds.push_back({phone.start, phone.end, phone.first, contact});
       continue;
     }
     const double middle = (phone.start + phone.end) / 2;
-    sounds.push_back({phone.start, middle, begin, false});
-    sounds.push_back({middle, phone.end, end, false});
+    sounds.push_back({phone.start, middle, phone.first, false});
+    sounds.push_back({middle, phone.end, phone.last, false});
   }
   return sounds;
 }
