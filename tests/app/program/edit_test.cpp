@@ -276,6 +276,7 @@ TEST(EditCommand, SaysWhatIsWrong) {
         Wrong{{"--smooth", "lips=-1"}, 2, "needs a number of 0 or more"},
         Wrong{{"--take", "lips"}, 2, "is not PART=FILE"},
         Wrong{{"--take", "lips=missing.fba"}, 3, "missing.fba"},
+        Wrong{{"--take", "rest=b.fba"}, 2, "--take rest= names the input, which is given already"},
         Wrong{{"--copy", "--mirror"}, 2, "--copy leaves all values as they are"}}) {
     std::vector<std::string> line = {"edit", talks().a, "-o", dir / "out.fba"};
     line.insert(line.end(), wrong.options.begin(), wrong.options.end());

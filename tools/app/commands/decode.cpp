@@ -22,10 +22,8 @@ struct DecodeOptions {
   std::string output;
   std::string bap;
   std::string rate;
-  std::string from, to;
+  EditSpan span;
   FaceText face;
-
-  bool piece() const { return !from.empty() || !to.empty(); }
 };
 
 // What is to be written. A face alone is decoded while it is written, and never in memory.
@@ -85,7 +83,7 @@ Result<Decoded> look_at(const PlaneFile& file, DecodeOptions& options) {
 
 // --from and --to: frames as they are shown, held where a plane is left out.
 Result<Decoded> read_piece(const DecodeOptions& options) {
-  const auto piece = parse_edit_piece(options.from + "-" + options.to);
+  const auto piece = options.span.piece();
   if (!piece) return piece.error();
   const auto source = read_edit_source(options.input);
   if (!source) return source.error();
@@ -98,11 +96,11 @@ Result<Decoded> read_piece(const DecodeOptions& options) {
         .in_file(options.input);
   }
   const EditCut cut{&*source, first, end};
-  auto face = face_frames(cut);
-  if (!face) return face.error();
+  const auto complete = complete_face(*source);
+  if (!complete) return complete.error();
   Decoded decoded;
   decoded.motion.kind = source->motion.kind;
-  decoded.motion.face = std::move(*face);
+  decoded.motion.face = face_frames(cut, *complete);
   decoded.motion.body.rate = source->rate;
   decoded.motion.body.name = source->motion.body.name;
   decoded.motion.body.frames = body_frames(cut);
@@ -112,7 +110,7 @@ Result<Decoded> read_piece(const DecodeOptions& options) {
 }
 
 Result<Decoded> read(DecodeOptions& options) {
-  if (options.piece()) return read_piece(options);
+  if (options.span.given()) return read_piece(options);
   if (options.bap.empty() && PlaneFile::can_read(options.input)) {
     const PlaneFile file(options.input);
     options.face.frames = planes_of(file);
@@ -253,10 +251,7 @@ void add_options(OptionTable& cli, DecodeOptions& options) {
   cli.add("--expand", face.expand,
           "Expand FAP 1 and 2 (visemes, expressions) to low-level FAPs, for players that do "
           "not support them; the default where others are coded, too, except with --exact");
-  cli.add("--from", options.from, "Begin here: seconds (12.5), 1:02.5, or frames (375f)")
-      ->type("TIME")
-      ->check(problem_of<parse_edit_time>);
-  cli.add("--to", options.to, "End here")->type("TIME")->check(problem_of<parse_edit_time>);
+  add_span_options(cli, options.span);
   cli.add("--rate", options.rate, "Resample to this frame rate, with linear interpolation")
       ->frame_rate();
   add_exact_option(cli, face.exact);

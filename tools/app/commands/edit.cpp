@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <list>
 #include <optional>
 
 #include "fap/rate_text.h"
@@ -24,7 +23,7 @@ namespace {
 struct EditSettings {
   std::vector<std::string> inputs;
   std::string output;
-  std::string from, to;
+  EditSpan span;
   std::vector<std::string> at;
   bool copy = false;
   std::string rate;
@@ -69,8 +68,8 @@ Result<void> read_all(const char* option, const std::vector<std::string>& texts,
 
 Result<void> read_options(EditSettings& options, Plan& plan) {
   if (auto ok = read_all("--at", options.at, parse_edit_piece, plan.pieces); !ok) return ok;
-  if (!options.from.empty() || !options.to.empty()) {
-    auto piece = parse_edit_piece(options.from + "-" + options.to);
+  if (options.span.given()) {
+    auto piece = options.span.piece();
     if (!piece) return invalid_option("--from, --to", piece.error());
     plan.pieces.push_back(*piece);
   }
@@ -83,7 +82,12 @@ Result<void> read_options(EditSettings& options, Plan& plan) {
   }
   if (auto ok = read_all("--take", options.take, parse_edit_take, changes.takes); !ok) return ok;
   for (const EditTake& take : changes.takes) {
-    if (take.what == EditTake::What::rest) options.inputs.push_back(take.path);
+    if (take.what != EditTake::What::rest) continue;
+    if (!options.inputs.empty()) {
+      return make_error(Code::invalid_argument,
+                        "--take rest= names the input, which is given already");
+    }
+    options.inputs.push_back(take.path);
   }
   std::erase_if(changes.takes,
                 [](const EditTake& take) { return take.what == EditTake::What::rest; });
@@ -272,10 +276,6 @@ Result<int> write_container(const Plan& plan, const EditSettings& options,
 
 std::string wrong_use(const EditSettings& options, const Plan& plan) {
   if (options.inputs.empty()) return "nothing to edit: name a file, or --take rest=FILE";
-  if (options.inputs.size() > 1 && plan.changes.takes.size() < options.take.size() &&
-      options.take.size() > 0 && options.inputs.size() > 1 + options.take.size()) {
-    return "--take rest= and a file say the same";
-  }
   if (options.copy && (plan.changes.any() || !options.rate.empty())) {
     return "--copy leaves all values as they are: it goes with cuts, joins and --offset only";
   }
@@ -346,10 +346,7 @@ void add_options(OptionTable& cli, EditSettings& options) {
           "File to write: .fba, .fap, .bap, or .mp4, .mkv, .ts with sound and words")
       ->output("")
       ->required();
-  cli.add("--from", options.from, "Begin here: seconds (12.5), 1:02.5, or frames (375f)")
-      ->type("TIME")
-      ->check(problem_of<parse_edit_time>);
-  cli.add("--to", options.to, "End here")->type("TIME")->check(problem_of<parse_edit_time>);
+  add_span_options(cli, options.span);
   cli.add("--at", options.at, "Keep this piece, FROM-TO; several are joined: 0-2.5,10-12")
       ->type("PIECE")
       ->check(problem_of<parse_edit_piece>)

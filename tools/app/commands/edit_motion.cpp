@@ -46,11 +46,9 @@ struct Parts {
   std::vector<fba::BodyFrame> body;
 };
 
-Result<Parts> parts_of(const EditCut& cut, fap::Rate rate, double speed) {
+Parts parts_of(const EditCut& cut, const fap::Sequence& complete, fap::Rate rate, double speed) {
   Parts parts;
-  auto face = face_frames(cut);
-  if (!face) return face.error();
-  parts.face = std::move(*face);
+  parts.face = face_frames(cut, complete);
   parts.body = body_frames(cut);
   const fap::Rate played = speed == 1 ? cut.source->rate : times(cut.source->rate, speed);
   parts.face.rate = played;
@@ -84,22 +82,23 @@ Result<void> take(EditedMotion& motion, const EditTake& take, double cross_fade)
   const auto source = read_edit_source(take.path);
   if (!source) return source.error();
   const fap::Rate rate = motion.face.frames.empty() ? motion.body.rate : motion.face.rate;
-  auto parts = parts_of({&*source, 0, source->frames}, rate, 1);
-  if (!parts) return parts.error();
+  const auto complete = complete_face(*source);
+  if (!complete) return complete.error();
+  Parts parts = parts_of({&*source, 0, source->frames}, *complete, rate, 1);
   if (take.what == EditTake::What::body) {
     const std::size_t frames = std::max(motion.face.frames.size(), motion.body.frames.size());
-    if (parts->body.empty()) {
+    if (parts.body.empty()) {
       return make_error(Code::not_found, "there is no body here").in_file(take.path);
     }
-    parts->body.resize(frames, parts->body.back());
-    motion.body.frames = std::move(parts->body);
+    parts.body.resize(frames, parts.body.back());
+    motion.body.frames = std::move(parts.body);
     return {};
   }
-  if (parts->face.frames.empty()) {
+  if (parts.face.frames.empty()) {
     return make_error(Code::not_found, "there is no face here").in_file(take.path);
   }
   if (motion.face.frames.empty()) motion.face.frames.resize(motion.body.frames.size());
-  fap::replace(motion.face, parts->face, take.faps, cross_fade);
+  fap::replace(motion.face, parts.face, take.faps, cross_fade);
   return {};
 }
 
@@ -109,10 +108,13 @@ Result<EditedMotion> change_motion(const std::vector<EditCut>& cuts, fap::Rate r
                                    const EditChanges& changes) {
   std::vector<Parts> pieces;
   Parts all;
+  const EditSource* source = nullptr;  // of `complete`
+  Result<fap::Sequence> complete = fap::Sequence();
   for (const EditCut& cut : cuts) {
-    auto parts = parts_of(cut, rate, changes.speed);
-    if (!parts) return parts.error();
-    pieces.push_back(std::move(*parts));
+    if (cut.source != source) complete = complete_face(*cut.source);
+    if (!complete) return complete.error();
+    source = cut.source;
+    pieces.push_back(parts_of(cut, *complete, rate, changes.speed));
     if (!pieces.back().face.frames.empty()) all.face.frames.resize(1);
     if (!pieces.back().body.empty()) all.body.resize(1);
   }
@@ -139,12 +141,11 @@ Result<EditedMotion> change_motion(const std::vector<EditCut>& cuts, fap::Rate r
     fap::smooth(motion.face, amount.faps, amount.value);
   }
   fap::fade(motion.face, changes.fade_in, changes.fade_out);
-  for (std::size_t i = 0; i < motion.face.frames.size(); ++i) {
-    motion.face.frames[i].number = std::int64_t(i);
-  }
-  for (std::size_t i = 0; i < motion.body.frames.size(); ++i) {
-    motion.body.frames[i].number = std::int64_t(i);
-  }
+  const auto number = [](auto& frames) {
+    for (std::size_t i = 0; i < frames.size(); ++i) frames[i].number = std::int64_t(i);
+  };
+  number(motion.face.frames);
+  number(motion.body.frames);
   return motion;
 }
 

@@ -7,6 +7,7 @@
 
 #include "fap/edit.h"
 #include "tools/app/commands/fap_names.h"
+#include "tools/app/commands/options.h"
 
 namespace animeme::tools {
 namespace {
@@ -83,6 +84,13 @@ Result<EditPiece> parse_edit_piece(const std::string& text) {
     return invalid("'" + text + "' ends before it begins");
   }
   return piece;
+}
+
+void add_span_options(OptionTable& cli, EditSpan& span) {
+  cli.add("--from", span.from, "Begin here: seconds (12.5), 1:02.5, or frames (375f)")
+      ->type("TIME")
+      ->check(problem_of<parse_edit_time>);
+  cli.add("--to", span.to, "End here")->type("TIME")->check(problem_of<parse_edit_time>);
 }
 
 Result<fap::Mask> parse_edit_faps(const std::string& name) {

@@ -13,6 +13,8 @@
 
 namespace animeme::tools {
 
+struct OptionTable;
+
 /// A point of a clip, in seconds or frames.
 struct EditTime {
   double value = 0;     ///< >= 0
@@ -34,6 +36,17 @@ struct EditPiece {
 /// "FROM-TO", "FROM-" or "-TO". Errors: invalid_argument, as parse_edit_time(); an end that does
 /// not come after its begin.
 Result<EditPiece> parse_edit_piece(const std::string& text);
+
+/// --from and --to.
+struct EditSpan {
+  std::string from, to;  ///< as they were given; empty: the begin, the end
+
+  bool given() const { return !from.empty() || !to.empty(); }  ///< one of them
+  /// Errors: those of parse_edit_piece().
+  Result<EditPiece> piece() const { return parse_edit_piece(from + "-" + to); }
+};
+/// Adds both.
+void add_span_options(OptionTable& cli, EditSpan& span);
 
 /// FAPs of a part of the face: a region ("lips"), a FAP or range ("open_jaw", "31-38"), "all".
 /// Errors: invalid_argument.

@@ -5,25 +5,30 @@
 namespace animeme::tools {
 namespace {
 
-// The planes of a source on its own time line: the first pose is held from its beginning, the last
-// one up to frame `end`.
-std::vector<fba::Plane> planes_on_time_line(const EditSource& source, std::int64_t end) {
-  std::vector<fba::Plane> planes;
-  const std::vector<fba::Plane>& coded = source.motion.decoded.planes;
+// Calls `take` with the planes of a source on its own time line, as long as it returns true: the
+// first pose is held from its beginning, the last one up to frame `end`.
+template <class Take>
+Result<void> for_planes(const EditSource& source, std::int64_t end, const Take& take) {
+  const std::vector<fba::Plane>& planes = source.motion.decoded.planes;
   if (source.lead > 0) {
-    planes.push_back(coded.front());
-    planes.back().number = -source.lead;
-    planes.back().temporal.skip.reset();
-    if (source.lead > 1) planes.back().temporal.skip = std::uint32_t(source.lead - 1);
+    fba::Plane held = planes.front();
+    held.number = 0;
+    held.temporal.skip.reset();
+    if (source.lead > 1) held.temporal.skip = std::uint32_t(source.lead - 1);
+    const Result<bool> more = take(held);
+    if (!more || !*more) return more ? Result<void>() : more.error();
   }
-  planes.insert(planes.end(), coded.begin(), coded.end());
-  for (fba::Plane& plane : planes) plane.number += source.lead;
-  fba::Plane& last = planes.back();
-  const std::int64_t missing = std::max(source.frames, end) - last.number - 1;
-  if (missing > std::int64_t(last.temporal.skip.value_or(0))) {
-    last.temporal.skip = std::uint32_t(missing);
+  for (const fba::Plane& given : planes) {
+    fba::Plane plane = given;
+    plane.number += source.lead;
+    const std::int64_t missing = std::max(source.frames, end) - plane.number - 1;
+    if (&given == &planes.back() && missing > std::int64_t(plane.temporal.skip.value_or(0))) {
+      plane.temporal.skip = std::uint32_t(missing);
+    }
+    const Result<bool> more = take(plane);
+    if (!more || !*more) return more ? Result<void>() : more.error();
   }
-  return planes;
+  return {};
 }
 
 bool has_start_codes(const EditCut& cut) {
@@ -48,12 +53,11 @@ Result<EditedPlanes> copy_planes(const std::vector<EditCut>& cuts, std::int64_t 
       {start_codes ? fba::PlaneStartCodes::all : fba::PlaneStartCodes::none, false});
   for (const EditCut& cut : cuts) {
     splicer.begin_source();
-    for (const fba::Plane& plane : planes_on_time_line(*cut.source, cut.end)) {
-      const auto more =
-          splicer.copy_frames(plane, cut.first, cut.end, &cut == &cuts.front() ? hold : 0);
-      if (!more) return more.error().in_file(cut.source->path);
-      if (!*more) break;
-    }
+    const std::int64_t held = &cut == &cuts.front() ? hold : 0;
+    auto copied = for_planes(*cut.source, cut.end, [&](const fba::Plane& plane) {
+      return splicer.copy_frames(plane, cut.first, cut.end, held);
+    });
+    if (!copied) return copied.error().in_file(cut.source->path);
   }
   EditedPlanes edited;
   edited.stream = splicer.finish();

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
+#include <optional>
 #include <span>
+#include <string>
 #include <utility>
 
 #include "tools/formats/media/audio.h"
@@ -57,31 +58,46 @@ class SoundWriter {
 
  private:
   Result<void> add_sound(const EditCut& cut, std::int64_t until) {
-    std::vector<std::string> odd;
+    const std::int64_t begin = std::llround(sound_begin(cut) * rate_);  // of the sound's samples
+    if (begin < 0) {
+      if (auto ok = add_silence(std::min(-begin, until - written_)); !ok) return ok;
+    }
+    if (auto ok = open(*cut.source, begin); !ok) return ok.error().in_file(cut.source->path);
+    const auto channels = std::size_t(reader_->channels());
+    while (written_ < until) {
+      if (block_.empty()) {
+        const auto next = reader_->next();
+        if (!next) return next.error().in_file(cut.source->path);
+        if (next->empty()) break;
+        block_ = *next;
+      }
+      const auto count = std::int64_t(block_.size() / channels);
+      const std::int64_t left_out = std::clamp<std::int64_t>(begin - position_, 0, count);
+      const std::int64_t used = std::min(count - left_out, until - written_);
+      const auto part =
+          block_.subspan(std::size_t(left_out) * channels, std::size_t(used) * channels);
+      position_ += left_out + used;
+      block_ = block_.subspan(std::size_t(left_out + used) * channels);
+      if (auto ok = push(part, int(channels)); !ok) return ok;
+    }
+    for (const std::string& text : odd_) warn(cut.source->path + ": " + text);
+    odd_.clear();
+    return {};
+  }
+
+  // Pieces of a source that follow each other are read in one go.
+  Result<void> open(const EditSource& source, std::int64_t begin) {
+    if (open_ == &source && begin >= position_) return {};
     media::ReadAudioOptions options;
     options.sample_rate = rate_;
     options.most_channels = 2;
-    options.warnings = &odd;
-    auto reader = media::AudioReader::open(cut.source->path, options);
-    if (!reader) return reader.error().in_file(cut.source->path);
-    std::int64_t ahead = std::llround(sound_begin(cut) * rate_);  // samples before the cut
-    if (ahead < 0) {
-      if (auto ok = add_silence(std::min(-ahead, until - written_)); !ok) return ok;
-      ahead = 0;
-    }
-    while (written_ < until) {
-      const auto block = reader->next();
-      if (!block) return block.error().in_file(cut.source->path);
-      if (block->empty()) break;
-      const auto count = std::int64_t(block->size()) / reader->channels();
-      const std::int64_t left_out = std::min(ahead, count);
-      ahead -= left_out;
-      const std::int64_t used = std::min(count - left_out, until - written_);
-      const auto part = block->subspan(std::size_t(left_out * reader->channels()),
-                                       std::size_t(used * reader->channels()));
-      if (auto ok = push(part, reader->channels()); !ok) return ok;
-    }
-    for (const std::string& text : odd) warn(cut.source->path + ": " + text);
+    options.warnings = &odd_;
+    auto reader = media::AudioReader::open(source.path, options);
+    if (!reader) return reader.error();
+    reader_ = std::move(*reader);
+    open_ = &source;
+    position_ = 0;
+    block_ = {};
     return {};
   }
 
@@ -116,6 +132,11 @@ class SoundWriter {
   int rate_;
   int channels_;
   std::int64_t written_ = 0;  // samples of a channel
+  const EditSource* open_ = nullptr;
+  std::optional<media::AudioReader> reader_;  // of that source
+  std::int64_t position_ = 0;                 // samples of a channel that were taken from it
+  std::span<const float> block_;              // samples that it gave and that were not taken yet
+  std::vector<std::string> odd_;              // what it warned of
   std::vector<float> both_;
   media::EncodedAudio sound_;
 };
@@ -126,8 +147,10 @@ Result<std::optional<media::EncodedAudio>> cut_sound(const std::vector<EditCut>&
                                                      const media::AudioSettings& settings,
                                                      bool& copies) {
   int sample_rate = 0, channels = 1;
+  const EditSource* seen = nullptr;
   for (const EditCut& cut : cuts) {
-    if (!cut.source->sound) continue;
+    if (!cut.source->sound || cut.source == seen) continue;
+    seen = cut.source;
     media::ReadAudioOptions options;
     options.most_channels = 2;
     const auto reader = media::AudioReader::open(cut.source->path, options);

@@ -66,29 +66,28 @@ Result<EditSource> read_edit_source(const std::string& path) {
   return source;
 }
 
-Result<fap::Sequence> face_frames(const EditCut& cut) {
-  const EditSource& source = *cut.source;
-  fap::Sequence clip;
-  clip.rate = source.rate;
-  clip.name = source.motion.face.name;
-  if (source.motion.face.frames.empty()) return clip;
-  FaceInput input;
-  input.clip = source.motion.face;
-  for (const fba::Plane& plane : source.motion.decoded.planes) {
-    if (!fba::has_face(plane.object_mask)) continue;
-    input.rules.push_back(
-        fba::group_rules(plane.face_settings ? *plane.face_settings : fba::FaceSettings()));
-  }
+Result<fap::Sequence> complete_face(const EditSource& source) {
+  const fap::Sequence& face = source.motion.face;
+  if (face.frames.empty()) return fap::Sequence{source.rate, {}, face.name};
   fap::FillOptions options;
-  options.mirror = options.lips = source.coded();  // a text says nothing about what it leaves out
   options.keep_high_level = true;
-  const auto shown = fap::fill(input.clip, input.rules, options);
-  if (!shown) return shown.error().in_file(source.path);
-  const auto last = std::int64_t(shown->frames.size()) - 1;
+  if (!source.coded()) options.mirror = options.lips = false;  // a text leaves them undefined
+  auto complete =
+      source.coded() ? fba::fill(source.motion.decoded, options) : fap::fill(face, options);
+  if (!complete) return complete.error().in_file(source.path);
+  complete->rate = source.rate;
+  complete->name = face.name;
+  return complete;
+}
+
+fap::Sequence face_frames(const EditCut& cut, const fap::Sequence& complete) {
+  fap::Sequence clip{complete.rate, {}, complete.name};
+  if (complete.frames.empty()) return clip;
+  const auto last = std::int64_t(complete.frames.size()) - 1;
   clip.frames.reserve(std::size_t(cut.end - cut.first));
   for (std::int64_t frame = cut.first; frame < cut.end; ++frame) {
-    const auto at = std::clamp<std::int64_t>(frame - source.lead, 0, last);
-    clip.frames.push_back(shown->frames[std::size_t(at)]);
+    const auto at = std::clamp<std::int64_t>(frame - cut.source->lead, 0, last);
+    clip.frames.push_back(complete.frames[std::size_t(at)]);
     clip.frames.back().number = frame - cut.first;
   }
   return clip;

@@ -37,10 +37,12 @@ struct EditCut {
   std::int64_t end = 0;                ///< behind the last frame
 };
 
-/// Its complete face (fap/fill.h), one frame for each of the cut, numbered from 0; no frames if it
-/// has none. Errors: those of fap::fill().
-Result<fap::Sequence> face_frames(const EditCut& cut);
-/// Likewise its body, held where planes have none.
+/// The complete face of a source (fap/fill.h), without the lead; no frames if it has none. Errors:
+/// those of fap::fill().
+Result<fap::Sequence> complete_face(const EditSource& source);
+/// One frame of it, `complete`, for each of a cut, numbered from 0.
+fap::Sequence face_frames(const EditCut& cut, const fap::Sequence& complete);
+/// Likewise the body, held where planes have none.
 std::vector<fba::BodyFrame> body_frames(const EditCut& cut);
 
 }  // namespace animeme::tools
