@@ -9,6 +9,7 @@
 #include "tools/formats/common/bit_rate.h"
 #include "tools/formats/common/text.h"
 #include "tools/formats/files/cost.h"
+#include "tools/live/sessions/clip.h"
 
 namespace animeme::tools {
 
@@ -17,17 +18,21 @@ void add_coding_options(OptionTable& cli, StreamSettings& settings) {
           "Quantiser (fap_quant); the error of 1 is not visible, 0 is lossless up to +-1860")
       ->between(0, 31)
       ->show_default();
+  add_limit_options(cli, settings, "--quant");
+}
+
+void add_limit_options(OptionTable& cli, StreamSettings& settings, const std::string& others) {
   cli.add("--rms", settings.rms,
           "Smallest size with at most this error, FAP units RMS; 2 is not visible")
       ->between(1e-3, 1e6)
-      ->excludes("--quant");
+      ->excludes(others.c_str());
   cli.add("--kbps", settings.kbps, "Target bit rate of the face, kbit/s")
       ->between(1e-3, 1e6)
-      ->excludes("--quant");
+      ->excludes(others.c_str());
   cli.add("--small", settings.small,
           "Smallest size without a visible error: --rms 2, and planes in which nothing moves are "
           "not sent")
-      ->excludes("--quant --rms --kbps");
+      ->excludes((others + " --rms --kbps").c_str());
 }
 
 void add_stream_options(OptionTable& cli, StreamSettings& settings) {
@@ -49,16 +54,20 @@ fba::EncodeOptions encode_options(const StreamSettings& settings) {
   return options;
 }
 
+void give_limits(const StreamSettings& settings, live::Coding& coding) {
+  const fba::EncodeOptions limits = encode_options(settings);
+  coding.max_rms = limits.max_rms;
+  coding.max_bits_per_second = limits.max_bits_per_second;
+  coding.skip_still = limits.skip_still;
+}
+
 std::string seconds_text(double seconds) { return format("%.2f s", seconds); }
 
 Result<fba::AccessUnits> access_units(const FaceInput& face, const StreamSettings& settings) {
   if (!face.stream.empty()) return fba::split_access_units(face.stream);
   fba::EncodeOptions options = encode_options(settings);
-  // A unit takes a start code and about four bits of stuffing besides its plane.
-  constexpr double kUnitBits = 36;
-  const double unit_rate = kUnitBits * face.clip.rate.frames_per_second();
   options.max_bits_per_second =
-      std::max(options.max_bits_per_second - unit_rate, options.max_bits_per_second * 0.1);
+      live::bit_rate_of_planes(options.max_bits_per_second, face.clip.rate);
   options.intra_seconds = settings.intra_seconds;
   AtStep step(Step::coding);
   Result<std::vector<std::uint8_t>> stream = fba::encode(face.clip, options);

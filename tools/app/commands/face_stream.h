@@ -9,6 +9,10 @@
 #include "tools/app/commands/common.h"
 #include "tools/formats/media/mux.h"
 
+namespace animeme::live {
+struct Coding;
+}
+
 namespace animeme::tools {
 
 /// How a face is coded for a container.
@@ -26,12 +30,18 @@ inline constexpr double kSmallRms = 2;
 /// Adds --quant, --rms, --kbps and --small.
 void add_coding_options(OptionTable& cli, StreamSettings& settings);
 
-/// Adds the same and --intra-seconds.
+/// Adds the last three of these, which exclude `others`, separated by blanks.
+void add_limit_options(OptionTable& cli, StreamSettings& settings, const std::string& others);
+
+/// Adds --quant, these and --intra-seconds.
 void add_stream_options(OptionTable& cli, StreamSettings& settings);
 
 /// The options for a raw stream: one intra plane. With a limit of error or rate, those of preset
 /// `file`; else every FAP of the clip is coded.
 fba::EncodeOptions encode_options(const StreamSettings& settings);
+
+/// The same limits for clips that are streamed.
+void give_limits(const StreamSettings& settings, live::Coding& coding);
 
 /// "1.25 s".
 std::string seconds_text(double seconds);

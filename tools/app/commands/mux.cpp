@@ -48,10 +48,7 @@ Result<fba::AccessUnits> for_segments(fba::AccessUnits units, bool coded,
   if (!decoded) return decoded.error();
   live::Coding coding;
   coding.intra_seconds = std::max(options.stream.intra_seconds, options.mux.fragment_seconds);
-  const fba::EncodeOptions limits = coded ? encode_options(options.stream) : fba::EncodeOptions();
-  coding.max_rms = limits.max_rms;
-  coding.max_bits_per_second = limits.max_bits_per_second;
-  coding.skip_still = limits.skip_still;
+  if (coded) give_limits(options.stream, coding);
   auto again = live::with_joints(units, *decoded, coding);
   if (!again) return again.error();
   if (!*again) return units;

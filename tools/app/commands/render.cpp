@@ -181,9 +181,7 @@ Result<int> render_video(const RenderOptions& options, const Plan& plan) {
   const Result<std::optional<speech::SoundInput>> sound = sound_of(options);
   if (!sound) return sound.error();
   media::MuxInput tracks;
-  std::error_code status;
-  if (*sound && (*sound)->samples &&
-      std::filesystem::is_regular_file(sound_path(options), status)) {
+  if (*sound && (*sound)->samples && is_on_disk(sound_path(options))) {
     tracks.audio_file = &sound_path(options);  // with both of its channels
   } else if (*sound) {
     (*sound)->give_to(tracks);

@@ -226,25 +226,6 @@ Result<int> send(const StreamOptions& options, live::Program& program, live::Sin
   return Interrupt::requested() ? kInterrupted : kOk;
 }
 
-// --small and --kbps, as the encoder wants them; a sentence if there is no clip to search.
-std::string limit_rate(StreamOptions& options, bool live) {
-  live::Coding& coding = options.program.coding;
-  if (options.small) {
-    coding.max_rms = kSmallRms;
-    coding.skip_still = true;
-  }
-  // A unit takes a start code and about four bits of stuffing besides its plane.
-  constexpr double kStartCodes = 36 * 25;
-  if (options.kbps > 0) {
-    coding.max_bits_per_second = std::max(options.kbps * 1000 - kStartCodes, options.kbps * 100);
-  }
-  if (live && (coding.max_rms > 0 || coding.max_bits_per_second > 0)) {
-    return "--rms, --kbps and --small need a clip that is known: a file or --text; for speech that "
-           "is made while it is sent there is --quant";
-  }
-  return {};
-}
-
 }  // namespace
 
 Result<int> run(StreamOptions& options) {
@@ -264,7 +245,13 @@ Result<int> run(StreamOptions& options) {
   const live::ProgramOptions& what = options.program;
   const bool live = !what.say.empty() || !what.say_json.empty() || !what.control.empty() ||
                     !what.say_audio.empty();
-  if (auto wrong = limit_rate(options, live); !wrong.empty()) return usage_error(wrong);
+  const live::Coding& coding = options.program.coding;
+  give_limits(options.limits, options.program.coding);
+  if (live && (coding.max_rms > 0 || coding.max_bits_per_second > 0)) {
+    return usage_error(
+        "--rms, --kbps and --small need a clip that is known: a file or --text; for speech that "
+        "is made while it is sent there is --quant");
+  }
   const bool opus = options.codec.empty() ? live || rtc : options.codec == "opus";
   options.program.coding.audio.codec = opus ? media::AudioCodec::opus : media::AudioCodec::aac;
   if (!options.heads.heads.empty()) {

@@ -71,18 +71,10 @@ void add_coding_options(OptionTable& cli, StreamOptions& options) {
           "Quantiser (fap_quant) of faces that are encoded")
       ->between(0, 31)
       ->show_default();
-  cli.add("--rms", options.program.coding.max_rms,
-          "Clips that are known: smallest size with at most this error, FAP units RMS; 2 is not "
-          "visible")
-      ->between(1e-3, 1e6)
-      ->excludes("--quant --copy");
-  cli.add("--kbps", options.kbps, "Clips that are known: target bit rate of the face, kbit/s")
-      ->between(1e-3, 1e6)
-      ->excludes("--quant --copy");
-  cli.add("--small", options.small,
-          "Clips that are known: smallest size without a visible error, --rms 2, and planes in "
-          "which nothing moves are not sent")
-      ->excludes("--quant --copy --rms --kbps");
+  add_limit_options(cli, options.limits, "--quant --copy");
+  for (const char* name : {"--rms", "--kbps", "--small"}) {
+    cli.get(name)->help += "; for clips that are known";
+  }
   cli.add("--audio-codec", options.codec,
           "aac or opus; default: that of the file, opus for --say, else aac")
       ->one_of("aac opus");

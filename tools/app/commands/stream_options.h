@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/app/commands/face_stream.h"
 #include "tools/app/commands/shown_heads.h"
 #include "tools/live/sessions/address.h"
 #include "tools/live/sessions/program.h"
@@ -22,8 +23,7 @@ struct StreamOptions {
   HeadChoices heads;             ///< --head, for the page
   live::ProgramOptions program;  ///< what is sent, and how it is coded
   std::string codec;             ///< --audio-codec
-  double kbps = 0;               ///< --kbps
-  bool small = false;            ///< --small
+  StreamSettings limits;         ///< --rms, --kbps and --small
   std::string rate = "25";       ///< --rate
   std::string pcm;               ///< --pcm
   std::string events;            ///< --events

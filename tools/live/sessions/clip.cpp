@@ -28,7 +28,7 @@ Result<fba::AccessUnits> code(const fap::Sequence& face, std::span<const fba::Bo
   }
   options.intra_seconds = coding.intra_seconds;
   options.max_rms = coding.max_rms;
-  options.max_bits_per_second = coding.max_bits_per_second;
+  options.max_bits_per_second = bit_rate_of_planes(coding.max_bits_per_second, face.rate);
   options.skip_still = coding.skip_still;
   options.leave_out = options.leave_out || has_limits(coding);
   const auto stream = fba::encode(face, options, body);
@@ -90,6 +90,11 @@ fba::AccessUnits with_true_joints(fba::AccessUnits units, const fba::DecodedStre
 std::string interval_text(double seconds) { return tools::format("%.1f s", seconds); }
 
 }  // namespace
+
+double bit_rate_of_planes(double bits_per_second, fap::Rate rate) {
+  constexpr double kUnitBits = 36;
+  return std::max(bits_per_second - kUnitBits * rate.frames_per_second(), bits_per_second * 0.1);
+}
 
 double longest_intra_interval(const fba::AccessUnits& units) {
   if (units.units.empty()) return 0;

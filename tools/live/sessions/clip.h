@@ -19,7 +19,7 @@ namespace animeme::live {
 struct Coding {
   int quant = 1;       ///< fap_quant, 0..31
   double max_rms = 0;  ///< as fba::EncodeOptions::max_rms; > 0: coded streams are re-encoded
-  double max_bits_per_second = 0;  ///< likewise; of the planes without start codes
+  double max_bits_per_second = 0;  ///< likewise, with start codes
   bool skip_still = false;         ///< likewise
   double intra_seconds = 1;        ///< coded streams with longer intervals are re-encoded
   bool copy = false;               ///< never re-encode coded streams
@@ -33,6 +33,10 @@ struct Clip {
   fba::AccessUnits face;      ///< planes
   media::EncodedAudio sound;  ///< no packets: silent
 };
+
+/// Of a bit rate of units what is left for their planes: a unit takes a start code and about four
+/// bits of stuffing besides. A tenth at least.
+double bit_rate_of_planes(double bits_per_second, fap::Rate rate);
 
 /// Encodes a clip with fba::live_options(), and the limits of `coding`: every intra plane is
 /// self-contained.
