@@ -6,6 +6,7 @@
 #include <random>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "dam/corpus/corpus.h"
@@ -26,6 +27,20 @@ class Uniform {
  private:
   std::mt19937 engine_;
 };
+
+/// Phones and their seconds.
+using Sounds = std::vector<std::pair<std::string, double>>;
+
+/// A script of sounds, one behind the other.
+inline dam::Script script_of(const Sounds& sounds) {
+  dam::Script script;
+  double at = 0;
+  for (const auto& [label, seconds] : sounds) {
+    script.phones.push_back({at, at + seconds, label, ""});
+    at += seconds;
+  }
+  return script;
+}
 
 /// SIL, then phones of the alphabet at random with random durations, then SIL.
 inline dam::Script random_script(Uniform& random, const std::vector<std::string>& alphabet,

@@ -9,21 +9,13 @@
 #include <random>
 
 #include "dam/script/phones.h"
+#include "tests/dam/dam_support.h"
 
 namespace animeme::dam {
 namespace viseme_curves_test {
 
-using Sounds = std::vector<std::pair<std::string, double>>;
-
-Script script_of(const Sounds& sounds) {
-  Script script;
-  double at = 0;
-  for (const auto& [label, seconds] : sounds) {
-    script.phones.push_back({at, at + seconds, label, ""});
-    at += seconds;
-  }
-  return script;
-}
+using test::script_of;
+using test::Sounds;
 
 // Any sounds, some of them very short.
 Script any_script(unsigned seed) {

@@ -10,19 +10,12 @@
 #include "dam/signal/fap_signal.h"
 #include "dam/speaking/synthesise.h"
 #include "fap/viseme.h"
+#include "tests/dam/dam_support.h"
 
 namespace animeme::dam {
 namespace viseme_track_test {
 
-Script script_of(std::initializer_list<std::pair<const char*, double>> sounds) {
-  Script script;
-  double at = 0;
-  for (const auto& [label, seconds] : sounds) {
-    script.phones.push_back({at, at + seconds, label, ""});
-    at += seconds;
-  }
-  return script;
-}
+using test::script_of;
 
 // "bob meets five ..." with short and long sounds, diphthongs and HH.
 Script sentence() {

@@ -86,18 +86,14 @@ TEST(PageMaterials, AreWaitedFor) {
   const TempDir dir;
   const auto opacities = [&](const TestHead& h) {
     const std::string html =
-        "<!doctype html><link rel=icon href='data:,'><canvas id=face style='width:200px'></canvas>"
-        "<script type=module>" +
-        std::string(viewer::head_script()) + "const bytes = fromBase64('" +
-        viewer::detail::base64(viewer::pack_head(h.head, h.rig)) +
-        "');\n"
-        "const canvas = document.getElementById('face');\n"
-        "const seen = () => getComputedStyle(canvas).opacity;\n"
-        "const view = new HeadView(canvas, readModel(bytes));\n"
-        "view.show({3: 100});\n"
-        "const before = seen();\n"
-        "await view.ready;\n"
-        "window.result = [before, seen(), String(view.camera.zoom)];</script>";
+        page_of_head(h,
+                     "const canvas = document.getElementById('face');\n"
+                     "const seen = () => getComputedStyle(canvas).opacity;\n"
+                     "const view = new HeadView(canvas, readModel(bytes));\n"
+                     "view.show({3: 100});\n"
+                     "const before = seen();\n"
+                     "await view.ready;\n"
+                     "window.result = [before, seen(), String(view.camera.zoom)];");
     const Json report = report_of("live", html, dir);
     EXPECT_EQ(said(report), std::vector<std::string>());
     return report.value("result", std::vector<std::string>());

@@ -8,6 +8,7 @@
 #include "fap/tables.h"
 #include "tests/readers/scripts.h"
 #include "tests/support/folders.h"
+#include "tools/view/viewer/detail/bytes.h"
 #include "tools/view/viewer/viewer.h"
 
 namespace animeme::test {
@@ -127,6 +128,14 @@ inline Json report_of(const std::string& kind, const std::string& html, const Te
   return run_json("node '" + std::string(test::kSourceFolder) +
                   "/tests/view/viewer/js/viewer_report.js' " + kind + " '" + path + "' '" +
                   dir.file("") + "'");
+}
+
+/// A page with a canvas `face` and a script that has the head in `bytes` and goes on with `script`.
+inline std::string page_of_head(const TestHead& h, const std::string& script) {
+  return "<!doctype html><link rel=icon href='data:,'><canvas id=face style='width:200px'></canvas>"
+         "<script type=module>" +
+         std::string(viewer::head_script()) + "const bytes = fromBase64('" +
+         viewer::detail::base64(viewer::pack_head(h.head, h.rig)) + "');\n" + script + "</script>";
 }
 
 // The software renderer of Chromium says how slow it is; that is not the page's doing.

@@ -239,17 +239,13 @@ TEST(Page, FitsTheScreen) {
 // for `values`, a script, as JSON.
 Json shown(const TestHead& h, const std::string& values, const TempDir& dir) {
   const std::string html =
-      "<!doctype html><link rel=icon href='data:,'><canvas id=face style='width:200px'></canvas>"
-      "<script type=module>" +
-      std::string(viewer::head_script()) + "const bytes = fromBase64('" +
-      viewer::detail::base64(viewer::pack_head(h.head, h.rig)) +
-      "');\n"
-      "const view = new HeadView(document.getElementById('face'), readModel(bytes));\n"
-      "view.camera.listen(view.canvas);\n"
-      "const at = () => view.model.points.map(({part, vertex}) =>\n"
-      "    [...view.rigs[0].placed(part).slice(vertex * 3, vertex * 3 + 3)]);\n"
-      "view.show(" +
-      values + ");\nwindow.result = at();</script>";
+      page_of_head(h,
+                   "const view = new HeadView(document.getElementById('face'), readModel(bytes));\n"
+                   "view.camera.listen(view.canvas);\n"
+                   "const at = () => view.model.points.map(({part, vertex}) =>\n"
+                   "    [...view.rigs[0].placed(part).slice(vertex * 3, vertex * 3 + 3)]);\n"
+                   "view.show(" +
+                       values + ");\nwindow.result = at();");
   const Json report = report_of("live", html, dir);
   EXPECT_EQ(said(report), std::vector<std::string>());
   return report.value("result", Json::array());
