@@ -39,7 +39,8 @@ Result<EditPiece> parse_edit_piece(const std::string& text);
 
 /// --from and --to.
 struct EditSpan {
-  std::string from, to;  ///< as they were given; empty: the begin, the end
+  std::string from;  ///< as it was given; empty: the begin
+  std::string to;    ///< likewise; empty: the end
 
   bool given() const { return !from.empty() || !to.empty(); }  ///< one of them
   /// Errors: those of parse_edit_piece().
