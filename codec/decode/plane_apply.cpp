@@ -28,11 +28,7 @@ bool apply_slots(const ParsedSlots& parsed, bool intra, SlotState& state) {
   for (std::size_t i = 0; i < coding.coded.size(); ++i) {
     const std::size_t slot = coding.coded[i];
     const std::int64_t level = std::int64_t(parsed.symbols[i]) + coding.lowest_level(intra, slot);
-    if (intra) {
-      state.value[slot] = 0;
-    } else {
-      state.model[slot].update(parsed.symbols[i]);
-    }
+    if (intra) state.value[slot] = 0;
     in_bounds &= add(state.value[slot], level * coding.step_of(slot));
   }
   return in_bounds;

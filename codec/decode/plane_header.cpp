@@ -28,7 +28,8 @@ std::optional<PlaneHeader> read_plane_header(std::span<const std::uint8_t> unit)
   const std::size_t begin = in.position() / 8;
   BitReader head(unit.subspan(begin, std::min(kEnough, unit.size() - begin)));
 
-  static const internal::StreamState nothing_known;
+  // Never changed: without an intra plane before it no predictive plane is read.
+  thread_local internal::StreamState nothing_known;
   internal::ParsedPlane plane;
   const Result<void> parsed = internal::parse_plane(head, nothing_known, false, plane);
   // A predictive plane cannot be read without the planes before it, but that is found out behind

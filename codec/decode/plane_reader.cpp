@@ -9,7 +9,7 @@ using Stage = PlaneProgress::Stage;
 
 class PlaneParser {
  public:
-  PlaneParser(BitReader& in, const StreamState& state, bool last, ParsedPlane& plane)
+  PlaneParser(BitReader& in, StreamState& state, bool last, ParsedPlane& plane)
       : in_(in), bits_(in, last), state_(state), plane_(plane) {}
 
   Result<void> run() {
@@ -221,7 +221,7 @@ class PlaneParser {
                       in_.position() - 1);
   }
 
-  Result<void> slots(const SlotState& state, ParsedSlots& parsed, Stage next) {
+  Result<void> slots(SlotState& state, ParsedSlots& parsed, Stage next) {
     auto done = read_slot_segment(bits_, state, plane_.intra, progress_, parsed);
     return done ? proceed(next) : done;
   }
@@ -268,14 +268,14 @@ class PlaneParser {
 
   BitReader& in_;
   const PlaneBits bits_;
-  const StreamState& state_;
+  StreamState& state_;
   ParsedPlane& plane_;
   PlaneProgress& progress_ = plane_.progress;
 };
 
 }  // namespace
 
-Result<void> parse_plane(BitReader& in, const StreamState& state, bool last, ParsedPlane& plane) {
+Result<void> parse_plane(BitReader& in, StreamState& state, bool last, ParsedPlane& plane) {
   return PlaneParser(in, state, last, plane).run();
 }
 

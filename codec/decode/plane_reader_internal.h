@@ -1,5 +1,5 @@
-// Parses one plane without changing any state, in as many steps as its bytes need to arrive, and
-// applies it once it is complete. Not installed API.
+// Parses one plane in as many steps as its bytes need to arrive, and applies it once it is
+// complete. Not installed API.
 #pragma once
 
 #include <array>
@@ -80,7 +80,10 @@ struct ParsedPlane {
 ///              (`last` = false). Call again with a reader of the same bytes and more: the work
 ///              goes on where it stopped.
 ///   truncated  the plane passes the end of `in` (`last` = true: nothing follows)
-Result<void> parse_plane(BitReader& in, const StreamState& state, bool last, ParsedPlane& plane);
+/// Of the state only the models of low-level parameters change, which learn the symbols of
+/// predictive planes. After an error other than need_data they are not to be used until the next
+/// intra plane.
+Result<void> parse_plane(BitReader& in, StreamState& state, bool last, ParsedPlane& plane);
 
 /// Applies a parsed plane: settings, models, reconstruction into `face` (mask and values) and
 /// `body` (not null if the plane has a body). Error out_of_range if a value leaves 32 bits; the

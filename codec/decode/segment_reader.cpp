@@ -5,16 +5,32 @@ namespace animeme::fba::internal {
 namespace {
 
 // Both: false if the bits do not suffice.
-bool flat_symbol(SegmentDecoder& segment, std::uint32_t n, std::uint16_t& symbol) {
-  if (!segment.ready()) return false;
+[[gnu::always_inline]] inline bool flat_symbol(SegmentCursor& segment, std::uint32_t n,
+                                               std::uint16_t& symbol) {
   symbol = std::uint16_t(n - 1 - segment.target(n));
-  return segment.consume(flat_interval(symbol, n));
+  const SymbolInterval interval = flat_interval(symbol, n);
+  return segment.consume(interval.low, interval.high, n);
 }
-bool model_symbol(SegmentDecoder& segment, const AdaptiveModel& model, std::uint16_t& symbol) {
-  if (!segment.ready()) return false;
+[[gnu::always_inline]] inline bool model_symbol(SegmentCursor& segment, const AdaptiveModel& model,
+                                                std::uint16_t& symbol) {
   SymbolInterval interval;
   symbol = std::uint16_t(model.find(segment.target(model.total()), interval));
-  return segment.consume(interval);
+  return segment.consume(interval.low, interval.high, interval.total);
+}
+
+// Reads symbols `first` to `count` - 1; `read(cursor, i)` reads one, false if the bits do not
+// suffice. Returns which one that was, or `count`.
+template <class Read>
+std::size_t read_symbols(SegmentDecoder& segment, std::size_t first, std::size_t count,
+                         const Read& read) {
+  if (!segment.ready()) return first;
+  SegmentCursor cursor = segment.cursor();  // a copy, which stays in the processor
+  std::size_t i = first;
+  for (; i < count && read(cursor, i); ++i) {
+    if (cursor.needs_bits()) segment.refill(cursor);
+  }
+  segment.set_cursor(cursor);
+  return i;
 }
 
 Result<void> end_segment(const PlaneBits& bits, const SegmentDecoder& segment) {
@@ -50,39 +66,47 @@ Result<void> PlaneBits::marker(const char* where) const {
 Result<void> read_high_segment(const PlaneBits& bits, const HighLevelState& high, int fap_quant,
                                int first, int last, ParsedPlane& plane) {
   SegmentDecoder segment(bits.in(), bits.last());
-  for (int which = first; which <= last; ++which) {
-    const std::size_t index = std::size_t(which);
-    const std::uint32_t max = std::uint32_t(high_level_max(which, fap_quant));
-    const bool done = plane.intra
-                          ? flat_symbol(segment, max + 1, plane.high_symbols[index])
-                          : model_symbol(segment, high.model[index], plane.high_symbols[index]);
-    if (!done) return bits.out_of_bits();
-  }
+  const std::size_t end = std::size_t(last) + 1;
+  const auto read = [&](SegmentCursor& cursor, std::size_t which) {
+    if (!plane.intra) return model_symbol(cursor, high.model[which], plane.high_symbols[which]);
+    const std::uint32_t max = std::uint32_t(high_level_max(int(which), fap_quant));
+    return flat_symbol(cursor, max + 1, plane.high_symbols[which]);
+  };
+  if (read_symbols(segment, std::size_t(first), end, read) != end) return bits.out_of_bits();
   return end_segment(bits, segment);
 }
 
-Result<void> read_slot_segment(const PlaneBits& bits, const SlotState& state, bool intra,
+Result<void> read_slot_segment(const PlaneBits& bits, SlotState& state, bool intra,
                                PlaneProgress& progress, ParsedSlots& parsed) {
   const SlotCoding& coding = intra ? parsed.coding : state.coding;
+  const std::uint16_t* coded = coding.coded.data();
   const std::size_t count = coding.coded.size();
   parsed.symbols.resize(count);
-  std::size_t i = progress.segment ? progress.symbols : 0;
+  std::uint16_t* symbols = parsed.symbols.data();
+  const std::size_t first = progress.segment ? progress.symbols : 0;
   SegmentDecoder segment =
       progress.segment ? *progress.segment : SegmentDecoder(bits.in(), bits.last());
   if (progress.segment) segment.resume(bits.in().bytes(), bits.last());
-  bool more = segment.ready();
+  std::size_t end = first;
   if (intra) {
-    for (; more && i < count; i += more ? 1 : 0) {
-      more = flat_symbol(segment, coding.alphabet(true, coding.coded[i]), parsed.symbols[i]);
-    }
+    end = read_symbols(segment, first, count, [&](SegmentCursor& cursor, std::size_t i) {
+      return flat_symbol(cursor, coding.alphabet(true, coded[i]), symbols[i]);
+    });
   } else {
-    for (; more && i < count; i += more ? 1 : 0) {
-      more = model_symbol(segment, state.model[coding.coded[i]], parsed.symbols[i]);
-    }
+    AdaptiveModel* models = state.model.data();
+    end = read_symbols(segment, first, count, [=](SegmentCursor& cursor, std::size_t i) {
+      AdaptiveModel& model = models[coded[i]];
+      std::uint16_t symbol = 0;
+      if (!model_symbol(cursor, model, symbol)) return false;
+      // While the processor waits for the next symbol, it has time for that.
+      model.update(symbol);
+      symbols[i] = symbol;
+      return true;
+    });
   }
-  if (!more) {
+  if (!segment.ready() || end != count) {
     progress.segment = segment;
-    progress.symbols = i;
+    progress.symbols = end;
     return bits.out_of_bits();
   }
   progress.segment.reset();

@@ -41,8 +41,9 @@ class PlaneBits {
 Result<void> read_high_segment(const PlaneBits& bits, const HighLevelState& high, int fap_quant,
                                int first, int last, ParsedPlane& plane);
 
-/// Symbols of the coded slots of one family. Goes on where `progress` says that it stopped.
-Result<void> read_slot_segment(const PlaneBits& bits, const SlotState& state, bool intra,
+/// Symbols of the coded slots of one family. Goes on where `progress` says that it stopped. The
+/// models of `state` learn the symbols of predictive planes as they are read.
+Result<void> read_slot_segment(const PlaneBits& bits, SlotState& state, bool intra,
                                PlaneProgress& progress, ParsedSlots& parsed);
 
 }  // namespace animeme::fba::internal

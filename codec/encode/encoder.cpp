@@ -90,18 +90,23 @@ struct Encoder::Impl : Encoder::Place {
     const std::size_t begin = out.position();
     SegmentEncoder segment(out);
     const SlotCoding& coding = slots.coding;
-    for (std::size_t i = 0; i < coding.coded.size(); ++i) {
-      const std::size_t slot = coding.coded[i];
-      const std::uint32_t symbol =
-          std::uint32_t(levels.level[i] - coding.lowest_level(intra, slot));
-      if (intra) {
-        segment.encode(flat_interval(symbol, coding.alphabet(true, slot)));
-      } else {
-        segment.encode(slots.model[slot].interval(symbol));
-        slots.model[slot].update(symbol);
-      }
-      slots.value[slot] = levels.rec[i];
+    const std::uint16_t* coded = coding.coded.data();
+    const std::size_t count = coding.coded.size();
+    const std::uint16_t* symbols = levels.symbol.data();
+    if (intra) {
+      segment.encode(count, [&](std::size_t i) {
+        return flat_interval(symbols[i], coding.alphabet(true, coded[i]));
+      });
+    } else {
+      AdaptiveModel* models = slots.model.data();
+      segment.encode(count, [=](std::size_t i) {
+        AdaptiveModel& model = models[coded[i]];
+        const SymbolInterval interval = model.interval(symbols[i]);
+        model.update(symbols[i]);
+        return interval;
+      });
     }
+    for (std::size_t i = 0; i < count; ++i) slots.value[coded[i]] = levels.rec[i];
     segment.flush();
     trace.segments.push_back({begin, out.position()});
   }

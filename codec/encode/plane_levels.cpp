@@ -100,7 +100,7 @@ void apply_settings(const SlotCoding& before, const BodySettings& settings, Slot
 Result<void> quantise_slots(const SlotState& state, const SlotCoding& coding, bool intra,
                             std::span<const std::int32_t> values, const char* what,
                             SlotLevels& out) {
-  out.level.resize(coding.coded.size());
+  out.symbol.resize(coding.coded.size());
   out.rec.resize(coding.coded.size());
   for (std::size_t i = 0; i < coding.coded.size(); ++i) {
     const std::uint16_t slot = coding.coded[i];
@@ -114,7 +114,7 @@ Result<void> quantise_slots(const SlotState& state, const SlotCoding& coding, bo
     if (level < low || level > high) return value_error(what, number, value, level, low, high);
     const std::int64_t rec = base + level * step;
     if (rec != std::int32_t(rec)) return too_large_error(what, number, value);
-    out.level[i] = std::int32_t(level);
+    out.symbol[i] = std::uint16_t(level - low);
     out.rec[i] = std::int32_t(rec);
   }
   return {};

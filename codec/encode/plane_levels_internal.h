@@ -12,9 +12,9 @@
 
 namespace animeme::fba::internal {
 
-/// Levels of one family's coded slots, and what they reconstruct to.
+/// Levels of one family's coded slots as symbols, and what they reconstruct to.
 struct SlotLevels {
-  std::vector<std::int32_t> level;
+  std::vector<std::uint16_t> symbol;  // the level less the lowest one
   std::vector<std::int32_t> rec;
 };
 

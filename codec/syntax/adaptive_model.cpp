@@ -69,8 +69,14 @@ void add_above(std::int16_t* sums, std::uint32_t index) {
 
 }  // namespace
 
-SymbolInterval AdaptiveModel::interval(std::uint32_t k) const {
-  if (fresh_) return flat_interval(k, n_);
+constinit const std::array<std::int16_t, 2 * AdaptiveModel::kLine> AdaptiveModel::kMore = [] {
+  std::array<std::int16_t, 2 * kLine> more{};
+  for (std::size_t i = kLine; i < more.size(); ++i) more[i] = 1;
+  return more;
+}();
+
+SymbolInterval AdaptiveModel::interval_otherwise(std::uint32_t k) const {
+  if (table_ == Table::none) return flat_interval(k, n_);
   const std::uint32_t mirrored = n_ - 1 - k;
   const std::uint32_t group = mirrored / kFan;
   const std::uint32_t place = mirrored % kFan;
@@ -96,8 +102,8 @@ SymbolInterval AdaptiveModel::interval(std::uint32_t k) const {
   return {low, low + count, total_};
 }
 
-std::uint32_t AdaptiveModel::find(std::uint32_t target, SymbolInterval& interval) const {
-  if (fresh_) {
+std::uint32_t AdaptiveModel::find_otherwise(std::uint32_t target, SymbolInterval& interval) const {
+  if (table_ == Table::none) {
     interval = {target, target + 1, n_};
     return n_ - 1 - target;
   }
@@ -150,9 +156,18 @@ std::uint32_t AdaptiveModel::find(std::uint32_t target, SymbolInterval& interval
   return n_ - 1 - (group * kFan + 8 * in_upper + 2 * pair + (is_odd ? 1 : 0));
 }
 
-void AdaptiveModel::update(std::uint32_t k) {
-  if (fresh_) build();
+// Of a line of sums, the last that is not above the target.
+std::uint32_t AdaptiveModel::last_of_all(std::uint32_t target) const {
+  const std::int16_t limit = std::int16_t(target);
+  std::int16_t count = 0;
+  for (const std::int16_t sum : below_) count = std::int16_t(count + (sum <= limit ? 1 : 0));
+  return std::uint32_t(count) - 1;
+}
+
+void AdaptiveModel::update_otherwise(std::uint32_t k) {
+  if (table_ == Table::none) build();
   if (total_ >= kMaxTotal) halve();
+  if (table_ == Table::line) return update(k);
   const std::uint32_t mirrored = n_ - 1 - k;
   const std::uint32_t top = mirrored / kFan2;
   if (n_ > kFan2) add_above(below_.data(), top);
@@ -174,18 +189,28 @@ void AdaptiveModel::carry(std::uint32_t mirrored) {
 }
 
 void AdaptiveModel::build() {
+  overflow_.clear();
+  overflowing_ = 0;
+  if (n_ <= kLargestLine) {
+    table_ = Table::line;
+    near_ = 0;
+    below_.resize((std::max(n_, kNear) + 2 * kBlock) / (2 * kBlock) * (2 * kBlock));
+    for (std::size_t i = 0; i < below_.size(); ++i) {
+      below_[i] = i <= n_ ? std::int16_t(i) : kNever;
+    }
+    return;
+  }
+  table_ = Table::levels;
   const std::uint32_t groups = (n_ + kFan - 1) / kFan;
   const std::uint32_t tops = (groups + kFan - 1) / kFan;
   excess_.assign(std::size_t(groups) * kFan, 0);
   below_.resize(std::size_t(kFan) * (1 + tops));
-  overflow_.clear();
-  overflowing_ = 0;
   last_group_ = 0;
-  fresh_ = false;
   sum_up();
 }
 
 void AdaptiveModel::halve() {
+  if (table_ == Table::line) return halve_line();
   // (f + 1) / 2 of a frequency f is half of the excess f - 1, rounded down, plus 1.
   for (Overflow& entry : overflow_) {
     entry.excess = std::uint16_t((entry.excess + excess_[entry.symbol]) / 2);
@@ -199,6 +224,19 @@ void AdaptiveModel::halve() {
   }
   std::erase_if(overflow_, [](const Overflow& entry) { return entry.excess == 0; });
   sum_up();
+}
+
+void AdaptiveModel::halve_line() {
+  std::int16_t before = 0;  // the sum that was here
+  std::int16_t sum = 0;
+  for (std::size_t i = 1; i <= n_; ++i) {
+    const int frequency = below_[i] - before;
+    before = below_[i];
+    sum = std::int16_t(sum + (frequency + 1) / 2);
+    below_[i] = sum;
+  }
+  for (std::size_t i = n_ + 1; i < below_.size(); ++i) below_[i] = kNever;
+  total_ = std::uint32_t(sum);
 }
 
 // The sums and the total from the frequencies.

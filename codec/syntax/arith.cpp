@@ -4,70 +4,49 @@
 
 namespace animeme::fba {
 
-namespace {
-
-constexpr std::uint32_t kQuarter1 = 16384;
-
-// Register values after a symbol, and what is shifted out of them.
-struct Narrowed {
-  std::uint32_t low;
-  std::uint32_t high;
-  std::uint32_t bits;  // the leading bits that low and high shared
-  int shared;          // their number
-  int straddling;      // bits behind the first different one in which low is 1 and high is 0
-};
-
-inline Narrowed narrow(std::uint32_t low, std::uint32_t high, const SymbolInterval& symbol) {
-  // length * count / total by a reciprocal that is too large by at most 2 / 2^46 parts of one:
-  // exact, since length * count is at most 2^16 * total and total is below 2^14.
-  const std::uint64_t reciprocal = std::uint64_t(std::int64_t(0x1p46 / double(symbol.total))) + 1;
-  const std::uint64_t length = high - low + 1;
-  high = low + std::uint32_t((length * symbol.high * reciprocal) >> 46) - 1;
-  low = low + std::uint32_t((length * symbol.low * reciprocal) >> 46);
-  // The registers have 16 bits; the 1 behind them stops the count.
-  const int shared = std::countl_zero(((low ^ high) << 16) | 0x8000U);
-  const int straddling = std::countl_one((low & ~high) << shared << 17);
-  const int shift = shared + straddling;
-  Narrowed next;
-  next.bits = low >> (16 - shared);
-  next.low = (low << shift) & 0x7FFFU;
-  next.high = ((((high + 1) << shift) - 1) & 0xFFFFU) | 0x8000U;
-  next.shared = shared;
-  next.straddling = straddling;
-  return next;
+// Takes 32 more bits, which all behind them may still change by a carry, and above them the carry
+// into those before.
+void SegmentEncoder::add_word(std::uint64_t word) {
+  if (waiting_ && word == 0xFFFFFFFFU) {
+    ++ones_;
+    return;
+  }
+  settle(std::uint32_t(word >> 32));
+  word_ = std::uint32_t(word);
+  waiting_ = true;
 }
 
-}  // namespace
-
-void SegmentEncoder::encode(const SymbolInterval& symbol) {
-  const Narrowed next = narrow(low_, high_, symbol);
-  if (next.shared != 0) emit(next.bits, next.shared);
-  pending_ += std::uint32_t(next.straddling);
-  low_ = next.low;
-  high_ = next.high;
+// Nothing but `carry` will change the words so far.
+void SegmentEncoder::settle(std::uint32_t carry) {
+  if (waiting_) put_word(word_ + carry);
+  for (; ones_ != 0; --ones_) put_word(carry != 0 ? 0 : 0xFFFFFFFFU);
+  waiting_ = false;
 }
 
+// The description writes the bit that says in which half the second quarter of the registers lies,
+// and behind it the pending ones and one more, which are its opposite: the first two bits of
+// low + 1/4, with its carry.
 void SegmentEncoder::flush() {
-  ++pending_;
-  emit(low_ < kQuarter1 ? 0 : 1, 1);
-  low_ = 0;
-  high_ = 0xFFFF;
+  const std::uint64_t rest = (now_.low + 0x4000U) >> 14;
+  const int count = now_.bits + 2;
+  settle(std::uint32_t(rest >> count));
+  if (count > 16) put(std::uint32_t(rest >> 16) & ((1U << (count - 16)) - 1), count - 16);
+  const int tail = count > 16 ? 16 : count;
+  put(std::uint32_t(rest) & ((1U << tail) - 1), tail);
+  now_ = {};
   zeros_ = 0;
 }
 
-// The first of the bits is followed by the pending ones, which are its opposite.
-void SegmentEncoder::emit(std::uint32_t bits, int count) {
-  const std::uint32_t first = bits >> (count - 1);
-  const std::uint32_t rest = bits & ((1U << (count - 1)) - 1);
-  if (pending_ + std::uint32_t(count) <= kStuffingRun) {
-    const std::uint32_t head = first != 0 ? 1U << pending_ : (1U << pending_) - 1;
-    put(head << (count - 1) | rest, int(pending_) + count);
-  } else {
-    put(first, 1);
-    for (; pending_ != 0; --pending_) put(first ^ 1U, 1);
-    if (count > 1) put(rest, count - 1);
+void SegmentEncoder::put_word(std::uint32_t word) {
+  // Without 22 zeros in a row nothing is stuffed: such a run within 32 bits would cover the middle
+  // twelve.
+  if ((word & 0x003FFC00U) != 0 && zeros_ + std::countl_zero(word) < kStuffingRun) {
+    out_.bits(word, 32);
+    zeros_ = std::countr_zero(word);
+    return;
   }
-  pending_ = 0;
+  put(word >> 16, 16);
+  put(word & 0xFFFFU, 16);
 }
 
 // 1 to 22 code bits: so few that a run of 22 zeros can only be completed at their front, or by
@@ -90,41 +69,15 @@ void SegmentEncoder::put(std::uint32_t bits, int count) {
   }
 }
 
-bool SegmentDecoder::consume(const SymbolInterval& symbol) {
-  const Narrowed next = narrow(low_, high_, symbol);
-  const int shift = next.shared + next.straddling;
-  if (shift > ahead_bits_) return false;
-  low_ = next.low;
-  high_ = next.high;
-  // Of the shared bits nothing stays; straddling leaves the first bit and drops those behind it.
-  const std::uint32_t wide = (value_ << shift) | take(shift);
-  value_ = (wide & 0x7FFFU) | ((wide >> next.straddling) & 0x8000U);
-  if (ahead_bits_ < 16) fill();
-  return true;
-}
-
-void SegmentDecoder::open_window() {
-  if (ahead_bits_ >= 16) value_ = take(16);
-}
-
-// Up to 16 bits from the front of those ahead.
-std::uint32_t SegmentDecoder::take(int count) {
-  const std::uint32_t bits = std::uint32_t((ahead_ >> 1) >> (63 - count));
-  ahead_ <<= count;
-  ahead_bits_ -= count;
-  taken_ += std::size_t(count);
-  return bits;
-}
-
 void SegmentDecoder::fill() {
-  while (ahead_bits_ <= 32) {
+  while (cursor_.ahead_bits_ <= 32) {
     const std::uint32_t bits = in_.peek32();
     // Without 22 zeros in a row there is no stuffed bit: such a run within 32 bits would cover
     // the middle twelve.
     if (in_.position() + 32 <= in_.size() && (bits & 0x003FFC00U) != 0 &&
         zeros_ + std::countl_zero(bits) < kStuffingRun) {
-      ahead_ |= std::uint64_t(bits) << (32 - ahead_bits_);
-      ahead_bits_ += 32;
+      cursor_.ahead_ |= std::uint64_t(bits) << (32 - cursor_.ahead_bits_);
+      cursor_.ahead_bits_ += 32;
       zeros_ = std::countr_zero(bits);
       in_.seek(in_.position() + 32);
     } else if (!fill_bit_by_bit()) {
@@ -139,14 +92,15 @@ bool SegmentDecoder::fill_bit_by_bit() {
     if (zeros_ == kStuffingRun) {
       if (!last_ && in_.position() >= in_.size()) return false;
       if (in_.bit() == 0 && bad_stuffing_ == SIZE_MAX) bad_stuffing_ = in_.position() - 1;
-      stuffed_at_[stuffed_ % stuffed_at_.size()] = taken_ + std::size_t(ahead_bits_);
+      stuffed_at_[stuffed_ % stuffed_at_.size()] =
+          cursor_.taken_ + std::size_t(cursor_.ahead_bits_);
       ++stuffed_;
       zeros_ = 0;
     }
     if (!last_ && in_.position() >= in_.size()) return false;
     const std::uint32_t bit = in_.bit();
-    ahead_ |= std::uint64_t(bit) << (63 - ahead_bits_);
-    ++ahead_bits_;
+    cursor_.ahead_ |= std::uint64_t(bit) << (63 - cursor_.ahead_bits_);
+    ++cursor_.ahead_bits_;
     zeros_ = bit != 0 ? 0 : zeros_ + 1;
   }
   return true;

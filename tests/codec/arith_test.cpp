@@ -43,7 +43,7 @@ int choose(Random& random, int kind, int n) {
 Material material(std::uint64_t seed, int symbols) {
   Random random(seed);
   Material out;
-  const int largest[] = {1, 2, 17, 121, 257, 1201, 3721};
+  const int largest[] = {1, 2, 17, 31, 64, 121, 128, 140, 257, 1201, 3721};
   for (const int most : largest) out.alphabets.push_back(random.range((most + 1) / 2, most));
   out.alphabets.back() = 3721;
   std::vector<int> kinds;
@@ -152,11 +152,11 @@ TEST_P(RandomSymbols, AreCodedWithTheBitsOfTheTextbook) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Coder, RandomSymbols, testing::Range(1, 9));
+INSTANTIATE_TEST_SUITE_P(Coder, RandomSymbols, testing::Range(1, 12));
 
 TEST(Coder, AModelIsHalvedAsInTheTextbook) {
   // Every symbol of the largest alphabet, then so many of a few that the total is reached often.
-  for (const int n : {1, 16, 256, 257, 3721}) {
+  for (const int n : {1, 15, 16, 17, 61, 127, 128, 129, 256, 257, 3721}) {
     Random random{std::uint64_t(n)};
     textbook::Model slow(n);
     fba::AdaptiveModel fast;
@@ -182,6 +182,72 @@ TEST(Coder, AModelIsHalvedAsInTheTextbook) {
         ASSERT_EQ(found.low, interval.low);
         ASSERT_EQ(found.high, interval.high);
       }
+    }
+  }
+}
+
+// Shifts one by one, as the description has them.
+int shifts_one_by_one(std::int64_t low, std::int64_t high) {
+  for (int shifts = 0;; ++shifts) {
+    if (low >= textbook::kQ2) {
+      low -= textbook::kQ2;
+      high -= textbook::kQ2;
+    } else if (high >= textbook::kQ2) {
+      if (low < textbook::kQ1 || high >= textbook::kQ3) return shifts;
+      low -= textbook::kQ1;
+      high -= textbook::kQ1;
+    }
+    low = 2 * low;
+    high = 2 * high + 1;
+  }
+}
+
+TEST(Coder, ShiftsAreCountedAsTheDescriptionDoesThem) {
+  // All short intervals, and some of each length around the borders of the registers.
+  for (std::uint32_t low = 0; low < 0x10000; ++low) {
+    for (std::uint32_t length = 1; length <= 40 && low + length <= 0x10000; ++length) {
+      ASSERT_EQ(fba::shifts_of(low, length), shifts_one_by_one(low, low + length - 1))
+          << low << ' ' << length;
+    }
+  }
+  Random random(44);
+  for (int i = 0; i < 1000000; ++i) {
+    const int low = random.chance(50)
+                        ? random.range(0, 0xFFFF)
+                        : std::clamp(random.range(0, 4) * 0x4000 + random.range(-3, 3), 0, 0xFFFF);
+    const int most = 0x10000 - low;
+    int length = random.range(1, most);
+    if (random.chance(50)) {  // an end at a border
+      length = std::clamp(random.range(0, 4) * 0x4000 + random.range(-3, 3) - low, 1, most);
+    }
+    ASSERT_EQ(fba::shifts_of(std::uint32_t(low), std::uint32_t(length)),
+              shifts_one_by_one(low, low + length - 1))
+        << low << ' ' << length;
+  }
+}
+
+TEST(Coder, ACarryGoesThroughBitsThatWaitForIt) {
+  // The middle symbol of three straddles the middle of the registers, however often it comes.
+  for (int middle = 0; middle < 200; ++middle) {
+    for (const int last : {0, 1, 2}) {
+      textbook::Bits expected;
+      textbook::SegmentWriter slow(expected);
+      fba::BitWriter out;
+      fba::SegmentEncoder fast(out);
+      const auto encode = [&](int symbol) {
+        slow.encode(textbook::Model(3), symbol);
+        fast.encode(fba::flat_interval(std::uint32_t(symbol), 3));
+      };
+      for (int i = 0; i < middle; ++i) encode(1);
+      encode(last);
+      encode(1);
+      slow.flush();
+      fast.flush();
+      ASSERT_EQ(out.position(), expected.count) << middle << ' ' << last;
+      const int padding = 8 - int(out.position() % 8);
+      out.bits(0, padding);
+      expected.put(0, padding);
+      ASSERT_TRUE(out.bytes() == expected.bytes) << middle << ' ' << last;
     }
   }
 }
