@@ -23,6 +23,19 @@ void note_rate(DecodedStream& out) {
   }
 }
 
+// Room for one more plane. Planes are large, so they are moved to larger memory less often than a
+// vector does by itself: there is room at once for as many as there will be, judged by those so
+// far, but for no more than eight times as many.
+void make_room(std::vector<Plane>& planes, std::size_t stream_bits) {
+  constexpr std::size_t kFirst = 64;
+  if (planes.size() < planes.capacity()) return;
+  if (planes.empty()) return planes.reserve(std::min(kFirst, stream_bits / 8));
+  const double share = double(planes.back().bit_end) / double(stream_bits);
+  const double guess = double(planes.size()) / share * 1.25;  // early planes are longer
+  planes.reserve(
+      std::size_t(std::clamp(guess, 2.0 * double(planes.size()), 8.0 * double(planes.size()))));
+}
+
 }  // namespace
 
 Result<DecodedStream> decode(std::span<const std::uint8_t> stream) {
@@ -30,6 +43,7 @@ Result<DecodedStream> decode(std::span<const std::uint8_t> stream) {
   DecodedStream out;
   std::size_t pushed = 0;
   for (;;) {
+    make_room(out.planes, stream.size() * 8);
     out.planes.emplace_back();  // filled in place
     const Result<bool> filled = decoder.impl_->advance(out.planes.back());
     if (filled && *filled) {

@@ -19,10 +19,10 @@ class PlaneParser {
       progress_.bit = in_.position();
     }
     while (progress_.stage != Stage::done) {
-      Result<void> done = read_stage();
-      if (!done) {
-        if (done.error().code != Code::need_data) restart();
-        return done;
+      if (!read_stage()) {
+        Error error = bits_.take_error();
+        if (error.code != Code::need_data) restart();
+        return error;
       }
       progress_.bit = in_.position();
     }
@@ -36,9 +36,9 @@ class PlaneParser {
     progress_.segment.reset();
   }
 
-  // Reads what a stage is about and says which one is next. A stage that runs out of bits is
-  // read again from its start, or from where it has set progress_.bit.
-  Result<void> read_stage() {
+  // Reads what a stage is about and says which one is next; false: there is an error. A stage that
+  // runs out of bits is read again from its start, or from where it has set progress_.bit.
+  bool read_stage() {
     switch (progress_.stage) {
       case Stage::header:
         return header();
@@ -63,17 +63,17 @@ class PlaneParser {
       case Stage::done:
         break;
     }
-    return {};
+    return true;
   }
 
   // Ends a stage whose bits were all there.
-  Result<void> proceed(Stage next) {
-    if (in_.overrun()) return bits_.out_of_bits();
+  bool proceed(Stage next) {
+    if (!bits_.check_end()) return false;
     progress_.stage = next;
-    return {};
+    return true;
   }
 
-  Result<void> header() {
+  bool header() {
     plane_.intra = in_.bit() != 0;
     plane_.object_mask = ObjectMask(in_.bits(2));
     plane_.temporal = {};
@@ -93,7 +93,7 @@ class PlaneParser {
         TimeCode code;
         code.hours = std::uint8_t(in_.bits(5));
         code.minutes = std::uint8_t(in_.bits(6));
-        if (auto ok = bits_.marker("time code"); !ok) return ok;
+        if (!bits_.marker("time code")) return false;
         code.seconds = std::uint8_t(in_.bits(6));
         temporal.time_code = code;
       }
@@ -104,7 +104,7 @@ class PlaneParser {
   }
 
   // Fields of four bits, as long as they are 15. There may be so many that each is final.
-  Result<void> skipped_frames() {
+  bool skipped_frames() {
     std::uint32_t part = 0;
     do {
       progress_.bit = in_.position();
@@ -118,8 +118,8 @@ class PlaneParser {
     return begin_parts();
   }
 
-  Result<void> begin_parts() {
-    if (auto ok = bits_.check_end(); !ok) return ok;
+  bool begin_parts() {
+    if (!bits_.check_end()) return false;
     const bool face = has_face(plane_.object_mask);
     if (!plane_.intra) {
       const bool face_known = !face || state_.face.coding.valid;
@@ -139,12 +139,12 @@ class PlaneParser {
     return plane_.intra ? Stage::body_masks : Stage::body_slots;
   }
 
-  Result<void> face_settings() {
+  bool face_settings() {
     FaceSettings& settings = plane_.face_settings;
     settings = {};
     settings.fap_quant = int(in_.bits(5));
     for (std::size_t group = 0; group < fap::kGroupCount; ++group) {
-      if (auto ok = bits_.marker("face masks"); !ok) return ok;
+      if (!bits_.marker("face masks")) return false;
       settings.mask_type[group] = MaskType(in_.bits(2));
       const fap::GroupInfo& info = fap::kGroups[group];
       const MaskType type = settings.mask_type[group];
@@ -166,36 +166,35 @@ class PlaneParser {
     return plane_.intra ? plane_.face_settings : state_.face_settings;
   }
 
-  Result<void> viseme() {
+  bool viseme() {
     if (settings_in_force().mask[1]) {
-      if (auto done = high_segment(kVisemeSelect1, kVisemeBlend); !done) return done;
+      if (!high_segment(kVisemeSelect1, kVisemeBlend)) return false;
       plane_.viseme_def = in_.bit() != 0;
     }
     return proceed(Stage::expression);
   }
 
-  Result<void> expression() {
+  bool expression() {
     if (settings_in_force().mask[2]) {
-      auto done = high_segment(kExpressionSelect1, kExpressionIntensity2);
-      if (!done) return done;
+      if (!high_segment(kExpressionSelect1, kExpressionIntensity2)) return false;
       plane_.init_face = in_.bit() != 0;
       plane_.expression_def = in_.bit() != 0;
     }
     return proceed(Stage::face_slots);
   }
 
-  Result<void> high_segment(int first, int last) {
+  bool high_segment(int first, int last) {
     return read_high_segment(bits_, state_.high, settings_in_force().fap_quant, first, last,
                              plane_);
   }
 
-  Result<void> body_settings() {
+  bool body_settings() {
     BodySettings& settings = plane_.body_settings;
     settings = {};
     settings.bap_quant = int(in_.bits(5));
     std::size_t slot = 0;
     for (std::size_t group = 0; group < kBodyGroupCount; ++group) {
-      if (auto ok = bits_.marker("body masks"); !ok) return ok;
+      if (!bits_.marker("body masks")) return false;
       const MaskType type = MaskType(in_.bits(2));
       settings.mask_type[group] = type;
       if (type == MaskType::interpolate) {
@@ -213,7 +212,7 @@ class PlaneParser {
     return range_flags(settings, Stage::body_ranges);
   }
 
-  Error dct(const char* part) const {
+  bool dct(const char* part) {
     return bits_.fail(Code::unsupported,
                       std::string("the ") + part +
                           " is coded in DCT mode (fba_object_coding_type 1), whose tables are not "
@@ -221,40 +220,39 @@ class PlaneParser {
                       in_.position() - 1);
   }
 
-  Result<void> slots(SlotState& state, ParsedSlots& parsed, Stage next) {
-    auto done = read_slot_segment(bits_, state, plane_.intra, progress_, parsed);
-    return done ? proceed(next) : done;
+  bool slots(SlotState& state, ParsedSlots& parsed, Stage next) {
+    return read_slot_segment(bits_, state, plane_.intra, progress_, parsed) && proceed(next);
   }
 
   // codec/bitstream.md, section 3.2: up to four sets, a marker at every fourth member of each
   // group.
   template <class Settings>
-  Result<void> range_flags(Settings& settings, Stage next) {
+  bool range_flags(Settings& settings, Stage next) {
     for (bool& flag : settings.send_range) flag = in_.bit() != 0;
     progress_.kind = 0;
     return proceed(next);
   }
 
   template <class Settings>
-  Result<void> ranges(SlotCoding& coding, Settings& settings, Stage next) {
+  bool ranges(SlotCoding& coding, Settings& settings, Stage next) {
     for (; progress_.kind < 4; ++progress_.kind) {
       progress_.bit = in_.position();
       if (!settings.send_range[progress_.kind]) continue;
       // The size of a set is known, so that a set which is still arriving is not read in vain.
       const bool arrived = in_.position() + coding.range_bits() <= in_.size();
       if (!arrived && !bits_.last()) return bits_.out_of_bits();
-      if (auto done = range_set(coding, settings, progress_.kind); !done) return done;
+      if (!range_set(coding, settings, progress_.kind)) return false;
     }
     return proceed(next);
   }
 
   template <class Settings>
-  Result<void> range_set(SlotCoding& coding, Settings& settings, std::size_t kind) {
+  bool range_set(SlotCoding& coding, Settings& settings, std::size_t kind) {
     std::size_t slot = 0;
     for (const std::uint8_t size : coding.table->group_sizes) {
       for (int i = 0; i < size; ++i, ++slot) {
         if (i % 4 == 0) {
-          if (auto ok = bits_.marker("ranges"); !ok) return ok;
+          if (!bits_.marker("ranges")) return false;
         }
         const std::size_t number = coding.table->number[slot];
         if (!settings.mask[number]) continue;
@@ -267,7 +265,7 @@ class PlaneParser {
   }
 
   BitReader& in_;
-  const PlaneBits bits_;
+  PlaneBits bits_;
   StreamState& state_;
   ParsedPlane& plane_;
   PlaneProgress& progress_ = plane_.progress;

@@ -33,7 +33,7 @@ std::size_t read_symbols(SegmentDecoder& segment, std::size_t first, std::size_t
   return i;
 }
 
-Result<void> end_segment(const PlaneBits& bits, const SegmentDecoder& segment) {
+bool end_segment(PlaneBits& bits, const SegmentDecoder& segment) {
   const std::size_t end = segment.end();
   if (end > bits.in().size()) return bits.out_of_bits();
   if (segment.bad_stuffing() != SIZE_MAX) {
@@ -41,30 +41,41 @@ Result<void> end_segment(const PlaneBits& bits, const SegmentDecoder& segment) {
                      segment.bad_stuffing());
   }
   bits.in().seek(end);
-  return {};
+  return true;
+}
+
+// A segment without symbols: two bits, and the look-ahead that any segment has.
+bool pass_empty_segment(PlaneBits& bits) {
+  BitReader& in = bits.in();
+  const std::size_t begin = in.position();
+  if (begin + (bits.last() ? 2 : 16) > in.size()) return bits.out_of_bits();
+  in.seek(begin + 2);
+  return true;
 }
 
 }  // namespace
 
-Error PlaneBits::out_of_bits() const {
-  if (!last_) return need_more_data();
-  return error_at_bit(Code::truncated, "the stream ends in the middle of a plane",
-                      std::int64_t(in_.size()));
+bool PlaneBits::out_of_bits() {
+  error_ = last_ ? error_at_bit(Code::truncated, "the stream ends in the middle of a plane",
+                                std::int64_t(in_.size()))
+                 : need_more_data();
+  return false;
 }
 
-Error PlaneBits::fail(Code code, std::string message, std::size_t bit) const {
+bool PlaneBits::fail(Code code, std::string message, std::size_t bit) {
   if (in_.overrun()) return out_of_bits();
-  return error_at_bit(code, std::move(message), std::int64_t(bit));
+  error_ = error_at_bit(code, std::move(message), std::int64_t(bit));
+  return false;
 }
 
-Result<void> PlaneBits::marker(const char* where) const {
-  if (in_.bit() != 0) return {};
+bool PlaneBits::marker(const char* where) {
+  if (in_.bit() != 0) return true;
   return fail(Code::syntax, std::string("marker bit in the ") + where + " is 0, must be 1",
               in_.position() - 1);
 }
 
-Result<void> read_high_segment(const PlaneBits& bits, const HighLevelState& high, int fap_quant,
-                               int first, int last, ParsedPlane& plane) {
+bool read_high_segment(PlaneBits& bits, const HighLevelState& high, int fap_quant, int first,
+                       int last, ParsedPlane& plane) {
   SegmentDecoder segment(bits.in(), bits.last());
   const std::size_t end = std::size_t(last) + 1;
   const auto read = [&](SegmentCursor& cursor, std::size_t which) {
@@ -76,11 +87,12 @@ Result<void> read_high_segment(const PlaneBits& bits, const HighLevelState& high
   return end_segment(bits, segment);
 }
 
-Result<void> read_slot_segment(const PlaneBits& bits, SlotState& state, bool intra,
-                               PlaneProgress& progress, ParsedSlots& parsed) {
+bool read_slot_segment(PlaneBits& bits, SlotState& state, bool intra, PlaneProgress& progress,
+                       ParsedSlots& parsed) {
   const SlotCoding& coding = intra ? parsed.coding : state.coding;
   const std::uint16_t* coded = coding.coded.data();
   const std::size_t count = coding.coded.size();
+  if (count == 0) return pass_empty_segment(bits);
   parsed.symbols.resize(count);
   std::uint16_t* symbols = parsed.symbols.data();
   const std::size_t first = progress.segment ? progress.symbols : 0;
@@ -104,7 +116,7 @@ Result<void> read_slot_segment(const PlaneBits& bits, SlotState& state, bool int
       return true;
     });
   }
-  if (!segment.ready() || end != count) {
+  if (end != count) {
     progress.segment = segment;
     progress.symbols = end;
     return bits.out_of_bits();

@@ -69,19 +69,21 @@ struct Encoder::Impl : Encoder::Place {
     const auto& levels = high_levels;
     const std::size_t begin = out.position();
     SegmentEncoder segment(out);
-    for (int which = first; which <= last; ++which) {
+    segment.encode(std::size_t(last - first) + 1, [&](std::size_t i) {
+      const int which = first + int(i);
       const std::size_t index = std::size_t(which);
       const std::int32_t max = high.max_level(which);
-      const std::int32_t base = intra ? 0 : high.value[index];
+      const std::int32_t change = levels[index] * high.step_of(which);
       if (intra) {
-        segment.encode(flat_interval(std::uint32_t(levels[index]), std::uint32_t(max + 1)));
-      } else {
-        const std::uint32_t symbol = std::uint32_t(levels[index] + max);
-        segment.encode(high.model[index].interval(symbol));
-        high.model[index].update(symbol);
+        high.value[index] = change;
+        return flat_interval(std::uint32_t(levels[index]), std::uint32_t(max + 1));
       }
-      high.value[index] = base + levels[index] * high.step_of(which);
-    }
+      high.value[index] += change;
+      const std::uint32_t symbol = std::uint32_t(levels[index] + max);
+      const SymbolInterval interval = high.model[index].interval(symbol);
+      high.model[index].update(symbol);
+      return interval;
+    });
     segment.flush();
     trace.segments.push_back({begin, out.position()});
   }
@@ -225,7 +227,7 @@ struct Encoder::Impl : Encoder::Place {
       internal::write_face_settings(out, state.face_settings);
     }
     const fap::Mask& mask = state.face_settings.mask;
-    reconstruction = {};
+    if (plane.intra) reconstruction = {};
     reconstruction.number = plane.face->number;
     reconstruction.mask = mask;
     if (mask[1]) {

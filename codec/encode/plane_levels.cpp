@@ -100,22 +100,33 @@ void apply_settings(const SlotCoding& before, const BodySettings& settings, Slot
 Result<void> quantise_slots(const SlotState& state, const SlotCoding& coding, bool intra,
                             std::span<const std::int32_t> values, const char* what,
                             SlotLevels& out) {
-  out.symbol.resize(coding.coded.size());
-  out.rec.resize(coding.coded.size());
-  for (std::size_t i = 0; i < coding.coded.size(); ++i) {
-    const std::uint16_t slot = coding.coded[i];
-    const int number = coding.table->number[slot];
+  const std::size_t count = coding.coded.size();
+  out.symbol.resize(count);
+  out.rec.resize(count);
+  const std::uint16_t* coded = coding.coded.data();
+  const std::uint16_t* numbers = coding.table->number.data();
+  const std::uint16_t* steps = coding.table->step.data();
+  const std::int32_t* before = state.value.data();
+  const std::int16_t* lowest = coding.range[intra ? kIntraMin : kPredictiveMin].data();
+  const std::int16_t* highest = coding.range[intra ? kIntraMax : kPredictiveMax].data();
+  std::uint16_t* symbols = out.symbol.data();
+  std::int32_t* recs = out.rec.data();
+  const std::int32_t scale = coding.scale;
+  const bool quantised = coding.quantised;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint16_t slot = coded[i];
+    const int number = numbers[slot];
     const std::int64_t value = values[std::size_t(number)];
-    const std::int64_t base = intra ? 0 : state.value[slot];
-    const std::int32_t step = coding.step_of(slot);
+    const std::int64_t base = intra ? 0 : before[slot];
+    const std::int32_t step = quantised ? steps[slot] * scale : 1;
     const std::int64_t level = quantise(value - base, step);
-    const std::int64_t low = coding.lowest_level(intra, slot);
-    const std::int64_t high = coding.highest_level(intra, slot);
+    const std::int64_t low = -lowest[slot];
+    const std::int64_t high = highest[slot];
     if (level < low || level > high) return value_error(what, number, value, level, low, high);
     const std::int64_t rec = base + level * step;
     if (rec != std::int32_t(rec)) return too_large_error(what, number, value);
-    out.symbol[i] = std::uint16_t(level - low);
-    out.rec[i] = std::int32_t(rec);
+    symbols[i] = std::uint16_t(level - low);
+    recs[i] = std::int32_t(rec);
   }
   return {};
 }

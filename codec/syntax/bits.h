@@ -4,7 +4,8 @@
 /// and checked once.
 #pragma once
 
-#include <array>
+#include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -60,18 +61,24 @@ class BitReader {
   /// 32 bits at an absolute position; zeros past the end.
   std::uint32_t peek32(std::size_t bit) const {
     const std::size_t byte = bit >> 3;
-    std::array<std::uint8_t, 5> window{};
-    if (byte + 5 <= bytes_.size()) {
-      std::memcpy(window.data(), &bytes_[byte], 5);
-    } else if (byte < bytes_.size()) {
-      std::memcpy(window.data(), &bytes_[byte], bytes_.size() - byte);
+    if (byte + 8 <= bytes_.size()) {
+      std::uint64_t window = 0;
+      std::memcpy(&window, &bytes_[byte], sizeof window);
+      if constexpr (std::endian::native == std::endian::little) window = __builtin_bswap64(window);
+      return std::uint32_t((window << (bit & 7)) >> 32);
     }
-    const std::uint32_t head = std::uint32_t(window[0]) << 24 | std::uint32_t(window[1]) << 16 |
-                               std::uint32_t(window[2]) << 8 | window[3];
-    return std::uint32_t((std::uint64_t(head) << 8 | window[4]) >> (8 - (bit & 7)));
+    return peek_at_end(bit);
   }
 
  private:
+  std::uint32_t peek_at_end(std::size_t bit) const {
+    std::uint64_t window = 0;
+    for (std::size_t byte = bit >> 3; byte < (bit >> 3) + 8; ++byte) {
+      window = window << 8 | (byte < bytes_.size() ? bytes_[byte] : 0U);
+    }
+    return std::uint32_t((window << (bit & 7)) >> 32);
+  }
+
   std::span<const std::uint8_t> bytes_;
   std::size_t bit_ = 0;
 };
@@ -85,7 +92,7 @@ class BitWriter {
     const std::uint64_t mask = (std::uint64_t(1) << count) - 1;
     accumulator_ = (accumulator_ << count) | (value & mask);
     pending_ += count;
-    if (pending_ >= 32) write_bytes();
+    if (pending_ >= 32) write_word();
   }
   /// Removes the last `count` bits; they must belong to the unfinished byte.
   std::uint32_t take_back(int count) {
@@ -105,40 +112,56 @@ class BitWriter {
 
   bool aligned() const { return pending_ % 8 == 0; }  ///< at a byte boundary
   /// Bits written so far.
-  std::size_t position() const { return bytes_.size() * 8 + std::size_t(pending_); }
+  std::size_t position() const { return used_ * 8 + std::size_t(pending_); }
   /// The complete bytes so far.
   const std::vector<std::uint8_t>& bytes() {
     write_bytes();
+    bytes_.resize(used_);
     return bytes_;
   }
   /// Moves the complete bytes out and keeps the bits of the unfinished one.
   std::vector<std::uint8_t> take() {
     write_bytes();
+    bytes_.resize(used_);
     std::vector<std::uint8_t> out;
     out.swap(bytes_);
+    used_ = 0;
     return out;
   }
   /// The same as a copy: both vectors keep their memory for reuse.
   void take(std::vector<std::uint8_t>& out) {
     write_bytes();
-    out.assign(bytes_.begin(), bytes_.end());
-    bytes_.clear();
+    out.assign(bytes_.begin(), bytes_.begin() + std::ptrdiff_t(used_));
+    used_ = 0;
   }
 
  private:
+  // Moves 32 bits out of the accumulator.
+  void write_word() {
+    pending_ -= 32;
+    std::uint32_t word = std::uint32_t(accumulator_ >> pending_);
+    if constexpr (std::endian::native == std::endian::little) word = __builtin_bswap32(word);
+    make_room();
+    std::memcpy(&bytes_[used_], &word, sizeof word);
+    used_ += sizeof word;
+  }
   // Moves the complete bytes out of the accumulator.
   void write_bytes() {
-    std::array<std::uint8_t, 8> out{};
-    std::size_t count = 0;
+    make_room();
     for (; pending_ >= 8; pending_ -= 8) {
-      out[count++] = std::uint8_t(accumulator_ >> (pending_ - 8));
+      bytes_[used_++] = std::uint8_t(accumulator_ >> (pending_ - 8));
     }
-    bytes_.insert(bytes_.end(), out.begin(), out.begin() + std::ptrdiff_t(count));
+  }
+  // For four more bytes.
+  void make_room() {
+    constexpr std::size_t kLeast = 64;
+    if (used_ + 4 > bytes_.size()) bytes_.resize(std::max(kLeast, 2 * bytes_.size()));
   }
 
-  std::vector<std::uint8_t> bytes_;
-  std::uint64_t accumulator_ = 0;  // the low pending_ bits are still to be written
-  int pending_ = 0;                // 0..31 between calls
+  std::vector<std::uint8_t> bytes_;  // with room behind what is used
+  std::size_t used_ = 0;             // bytes written
+  std::uint64_t accumulator_ = 0;    // the low pending_ bits are still to be written
+  int pending_ = 0;                  // 0..31 between calls
 };
 
 }  // namespace animeme::fba
