@@ -44,6 +44,7 @@ bool apply_high(const ParsedPlane& plane, int first, int last, HighLevelState& h
     } else {
       level -= high.max_level(which);
       high.model[index].update(plane.high_symbols[index]);
+      high.model[index].expect(plane.high_symbols[index]);
     }
     in_bounds &= add(high.value[index], level * high.step_of(which));
   }

@@ -112,6 +112,7 @@ bool read_slot_segment(PlaneBits& bits, SlotState& state, bool intra, PlaneProgr
       if (!model_symbol(cursor, model, symbol)) return false;
       // While the processor waits for the next symbol, it has time for that.
       model.update(symbol);
+      model.expect(symbol);
       symbols[i] = symbol;
       return true;
     });

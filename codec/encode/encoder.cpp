@@ -53,7 +53,8 @@ struct Encoder::Impl : Encoder::Place {
   PendingSlots pending_body{internal::body_slots()};
   internal::HighLevels high_levels{};
 
-  Result<void> check(const PlaneInput& plane) const {
+  // The reason why a plane cannot be written, as far as that is known before it is quantised.
+  std::optional<Error> objection(const PlaneInput& plane) const {
     if (unit_ended && !has_start_code(plane)) {
       return internal::invalid("after end_unit() a plane needs a start code; see StreamOptions");
     }
@@ -61,7 +62,7 @@ struct Encoder::Impl : Encoder::Place {
                          (has_body(plane.object_mask) && !state.body.coding.valid))) {
       return internal::invalid("a predictive plane needs an intra plane of its kind before it");
     }
-    return internal::check_input(plane);
+    return internal::objection(plane);
   }
 
   void write_high(bool intra, int first, int last) {
@@ -84,11 +85,14 @@ struct Encoder::Impl : Encoder::Place {
       high.model[index].update(symbol);
       return interval;
     });
-    segment.flush();
-    trace.segments.push_back({begin, out.position()});
+    if (segment.flush() >= internal::kManyZeros) trace.segments.push_back({begin, out.position()});
   }
 
   void write_slots(SlotState& slots, bool intra, const internal::SlotLevels& levels) {
+    if (slots.coding.coded.empty()) {
+      SegmentEncoder(out).flush();
+      return;
+    }
     const std::size_t begin = out.position();
     SegmentEncoder segment(out);
     const SlotCoding& coding = slots.coding;
@@ -109,8 +113,7 @@ struct Encoder::Impl : Encoder::Place {
       });
     }
     for (std::size_t i = 0; i < count; ++i) slots.value[coded[i]] = levels.rec[i];
-    segment.flush();
-    trace.segments.push_back({begin, out.position()});
+    if (segment.flush() >= internal::kManyZeros) trace.segments.push_back({begin, out.position()});
   }
 
   std::vector<std::uint8_t> bytes_and_rest();
@@ -119,47 +122,46 @@ struct Encoder::Impl : Encoder::Place {
 
   // First everything that can fail, then the bits.
   Result<void> write(const PlaneInput& plane) {
-    if (auto ok = check(plane); !ok) return ok;
-    if (has_face(plane.object_mask)) {
-      if (auto ok = quantise_face(plane); !ok) return ok;
-    }
-    if (has_body(plane.object_mask)) {
-      if (auto ok = quantise_body(plane); !ok) return ok;
-    }
+    std::optional<Error> error = objection(plane);
+    if (error) return *std::move(error);
+    if (has_face(plane.object_mask) && !quantise_face(plane, error)) return *std::move(error);
+    if (has_body(plane.object_mask) && !quantise_body(plane, error)) return *std::move(error);
     begin_plane(plane);
     if (has_face(plane.object_mask)) write_face(plane);
     if (has_body(plane.object_mask)) write_body(plane);
     return {};
   }
 
-  Result<void> quantise_face(const PlaneInput& plane) {
+  bool quantise_face(const PlaneInput& plane, std::optional<Error>& error) {
     const FaceSettings& settings = plane.intra ? *plane.face_settings : state.face_settings;
     if (plane.intra) internal::apply_settings(state.face.coding, settings, pending_face.coding);
-    const auto values = internal::high_level_values(*plane.face);
-    const auto quantise_high = [&](int first, int last) {
-      return internal::quantise_high(state.high, settings.fap_quant, plane.intra, first, last,
-                                     values, high_levels);
-    };
-    if (settings.mask[1]) {
-      auto ok = quantise_high(internal::kVisemeSelect1, internal::kVisemeBlend);
-      if (!ok) return ok;
+    if (settings.mask[1] || settings.mask[2]) {
+      const auto values = internal::high_level_values(*plane.face);
+      const auto quantise = [&](int first, int last) {
+        return internal::quantise_high(state.high, settings.fap_quant, plane.intra, first, last,
+                                       values, high_levels, error);
+      };
+      if (settings.mask[1] && !quantise(internal::kVisemeSelect1, internal::kVisemeBlend)) {
+        return false;
+      }
+      if (settings.mask[2] &&
+          !quantise(internal::kExpressionSelect1, internal::kExpressionIntensity2)) {
+        return false;
+      }
     }
-    if (settings.mask[2]) {
-      auto ok = quantise_high(internal::kExpressionSelect1, internal::kExpressionIntensity2);
-      if (!ok) return ok;
-    }
-    return internal::quantise_slots(state.face,
-                                    plane.intra ? pending_face.coding : state.face.coding,
-                                    plane.intra, plane.face->value, "FAP", pending_face.levels);
+    const SlotCoding& coding = plane.intra ? pending_face.coding : state.face.coding;
+    return coding.coded.empty() ||
+           internal::quantise_slots(state.face, coding, plane.intra, plane.face->value, "FAP",
+                                    pending_face.levels, error);
   }
 
-  Result<void> quantise_body(const PlaneInput& plane) {
+  bool quantise_body(const PlaneInput& plane, std::optional<Error>& error) {
     if (plane.intra) {
       internal::apply_settings(state.body.coding, *plane.body_settings, pending_body.coding);
     }
-    return internal::quantise_slots(state.body,
-                                    plane.intra ? pending_body.coding : state.body.coding,
-                                    plane.intra, plane.body->value, "BAP", pending_body.levels);
+    return internal::quantise_slots(
+        state.body, plane.intra ? pending_body.coding : state.body.coding, plane.intra,
+        plane.body->value, "BAP", pending_body.levels, error);
   }
 
   void start_code(std::uint32_t code) {

@@ -75,7 +75,7 @@ void apply(const SlotCoding& before, const Settings& settings, int quant, int sc
 
 }  // namespace
 
-Result<void> check_input(const PlaneInput& plane) {
+std::optional<Error> objection(const PlaneInput& plane) {
   if ((has_face(plane.object_mask) && plane.face == nullptr) ||
       (has_body(plane.object_mask) && plane.body == nullptr)) {
     return invalid("a plane needs values for everything in its object mask");
@@ -83,11 +83,14 @@ Result<void> check_input(const PlaneInput& plane) {
   if (plane.temporal.skip.value_or(0) > kMaxSkip) {
     return invalid("more than a million frames in a row cannot be skipped");
   }
-  if (plane.intra) return check_intra(plane);
+  if (plane.intra) {
+    if (auto ok = check_intra(plane); !ok) return ok.error();
+    return std::nullopt;
+  }
   if (plane.temporal.rate || plane.temporal.time_code) {
     return invalid("frame rate and time code belong in intra planes");
   }
-  return {};
+  return std::nullopt;
 }
 
 void apply_settings(const SlotCoding& before, const FaceSettings& settings, SlotCoding& coding) {
@@ -97,9 +100,9 @@ void apply_settings(const SlotCoding& before, const BodySettings& settings, Slot
   apply(before, settings, settings.bap_quant, bap_scale(settings.bap_quant), coding);
 }
 
-Result<void> quantise_slots(const SlotState& state, const SlotCoding& coding, bool intra,
-                            std::span<const std::int32_t> values, const char* what,
-                            SlotLevels& out) {
+bool quantise_slots(const SlotState& state, const SlotCoding& coding, bool intra,
+                    std::span<const std::int32_t> values, const char* what, SlotLevels& out,
+                    std::optional<Error>& error) {
   const std::size_t count = coding.coded.size();
   out.symbol.resize(count);
   out.rec.resize(count);
@@ -122,30 +125,38 @@ Result<void> quantise_slots(const SlotState& state, const SlotCoding& coding, bo
     const std::int64_t level = quantise(value - base, step);
     const std::int64_t low = -lowest[slot];
     const std::int64_t high = highest[slot];
-    if (level < low || level > high) return value_error(what, number, value, level, low, high);
+    if (level < low || level > high) {
+      error = value_error(what, number, value, level, low, high);
+      return false;
+    }
     const std::int64_t rec = base + level * step;
-    if (rec != std::int32_t(rec)) return too_large_error(what, number, value);
+    if (rec != std::int32_t(rec)) {
+      error = too_large_error(what, number, value);
+      return false;
+    }
     symbols[i] = std::uint16_t(level - low);
     recs[i] = std::int32_t(rec);
   }
-  return {};
+  return true;
 }
 
-Result<void> quantise_high(const HighLevelState& state, int fap_quant, bool intra, int first,
-                           int last, const HighLevels& values, HighLevels& levels) {
+bool quantise_high(const HighLevelState& state, int fap_quant, bool intra, int first, int last,
+                   const HighLevels& values, HighLevels& levels, std::optional<Error>& error) {
   for (int which = first; which <= last; ++which) {
     const std::size_t index = std::size_t(which);
     const std::int64_t base = intra ? 0 : state.value[index];
-    const std::int64_t level =
-        quantise(std::int64_t(values[index]) - base, high_level_step(which, fap_quant));
-    const std::int64_t max = high_level_max(which, fap_quant);
+    const std::int64_t change = values[index] - base;
+    const std::int32_t step = high_level_step(which, fap_quant);
+    const std::int64_t level = step == 1 ? change : quantise(change, step);
+    const std::int64_t max = intra ? high_level_max(which, fap_quant) : state.max_level(which);
     if (level > max || level < (intra ? 0 : -max)) {
-      return value_error("high-level FAP", which <= kVisemeBlend ? 1 : 2, values[index], level,
-                         intra ? 0 : -max, max);
+      error = value_error("high-level FAP", which <= kVisemeBlend ? 1 : 2, values[index], level,
+                          intra ? 0 : -max, max);
+      return false;
     }
     levels[index] = std::int32_t(level);
   }
-  return {};
+  return true;
 }
 
 }  // namespace animeme::fba::internal

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,22 +21,22 @@ struct SlotLevels {
 
 using HighLevels = std::array<std::int32_t, kHighLevelCount>;
 
-/// Checks a plane as far as possible without the state. Error invalid_argument as
+/// What is wrong with a plane as far as that can be said without the state: invalid_argument as of
 /// Encoder::write().
-Result<void> check_input(const PlaneInput& plane);
+std::optional<Error> objection(const PlaneInput& plane);
 
 /// What the settings of an intra plane make of the coding parameters `before` it.
 void apply_settings(const SlotCoding& before, const FaceSettings& settings, SlotCoding& coding);
 void apply_settings(const SlotCoding& before, const BodySettings& settings, SlotCoding& coding);
 
-/// Levels of the coded slots; `values` by FAP or BAP number, `what` names the family. Error
-/// out_of_range as Encoder::write().
-Result<void> quantise_slots(const SlotState& state, const SlotCoding& coding, bool intra,
-                            std::span<const std::int32_t> values, const char* what,
-                            SlotLevels& out);
+/// Levels of the coded slots; `values` by FAP or BAP number, `what` names the family. False:
+/// `error` is out_of_range as of Encoder::write().
+bool quantise_slots(const SlotState& state, const SlotCoding& coding, bool intra,
+                    std::span<const std::int32_t> values, const char* what, SlotLevels& out,
+                    std::optional<Error>& error);
 
 /// The same of the high-level values `first` to `last`, at the fap_quant in force.
-Result<void> quantise_high(const HighLevelState& state, int fap_quant, bool intra, int first,
-                           int last, const HighLevels& values, HighLevels& levels);
+bool quantise_high(const HighLevelState& state, int fap_quant, bool intra, int first, int last,
+                   const HighLevels& values, HighLevels& levels, std::optional<Error>& error);
 
 }  // namespace animeme::fba::internal

@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::size_t kPrefixZeros = 23;  // of a start code, at any bit position
 constexpr std::size_t kLookAhead = 14;    // bits that a decoder reads past its segment
+static_assert(kManyZeros + kLookAhead == std::size_t(kStuffingRun));
 
 bool bit_at(std::span<const std::uint8_t> bytes, std::size_t bit) {
   return ((bytes[bit / 8] >> (7 - bit % 8)) & 1) != 0;

@@ -15,7 +15,7 @@ struct StreamTrace {
     std::size_t begin = 0;
     std::size_t end = 0;
   };
-  std::vector<Segment> segments;         // of the arithmetic coder
+  std::vector<Segment> segments;         // of the arithmetic coder, those that end in many zeros
   std::vector<std::size_t> start_codes;  // real ones
   std::vector<std::size_t> lost;         // planes that decoders take for stuffing
 
@@ -25,6 +25,9 @@ struct StreamTrace {
     lost.clear();
   }
 };
+
+/// Fewer zeros at the end of a segment cannot become a run that decoders take for one of its own.
+inline constexpr int kManyZeros = 8;
 
 /// A legal pattern that can mislead another decoder.
 struct Hazard {

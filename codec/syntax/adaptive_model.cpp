@@ -193,7 +193,7 @@ void AdaptiveModel::build() {
   overflowing_ = 0;
   if (n_ <= kLargestLine) {
     table_ = Table::line;
-    near_ = 0;
+    near_ = last_ = repeats_ = 0;
     below_.resize((std::max(n_, kNear) + 2 * kBlock) / (2 * kBlock) * (2 * kBlock));
     for (std::size_t i = 0; i < below_.size(); ++i) {
       below_[i] = i <= n_ ? std::int16_t(i) : kNever;

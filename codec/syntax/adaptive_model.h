@@ -60,10 +60,15 @@ class AdaptiveModel {
   [[gnu::always_inline]] std::uint32_t find(std::uint32_t target, SymbolInterval& interval) const {
     if (table_ != Table::line) return find_otherwise(target, interval);
     const std::int16_t* sums = below_.data();
-    const std::int16_t* near = sums + near_;
-    const bool is_near = target >= std::uint32_t(near[0]) && target < std::uint32_t(near[kNear]);
-    const std::uint32_t mirrored =
-        is_near ? near_ + last_of_near(near, target) : last_of_all(target);
+    std::uint32_t mirrored = last_;
+    // A parameter at rest repeats its symbol: where that is foreseen, the processor goes on with it
+    // while the target is still being divided.
+    if (repeats_ < kRest || target < std::uint32_t(sums[mirrored]) ||
+        target >= std::uint32_t(sums[mirrored + 1])) {
+      const std::int16_t* near = sums + near_;
+      const bool is_near = target >= std::uint32_t(near[0]) && target < std::uint32_t(near[kNear]);
+      mirrored = is_near ? near_ + last_of_near(near, target) : last_of_all(target);
+    }
     interval = {std::uint32_t(sums[mirrored]), std::uint32_t(sums[mirrored + 1]), total_};
     return n_ - 1 - mirrored;
   }
@@ -78,8 +83,14 @@ class AdaptiveModel {
       add_block(sums + i, more + i);
       add_block(sums + i + kBlock, more + i + kBlock);
     }
-    near_ = n_ <= kNear ? 0 : std::min(mirrored < kNear / 2 ? 0 : mirrored - kNear / 2, n_ - kNear);
     ++total_;
+  }
+  /// Lets find() look for k first, without effect on what it finds: for decoders, behind update().
+  [[gnu::always_inline]] void expect(std::uint32_t k) {
+    const std::uint32_t mirrored = n_ - 1 - k;
+    near_ = n_ <= kNear ? 0 : std::min(mirrored < kNear / 2 ? 0 : mirrored - kNear / 2, n_ - kNear);
+    repeats_ = (repeats_ + 1) & (0U - std::uint32_t(mirrored == last_));  // 0 behind another one
+    last_ = mirrored;
   }
 
  private:
@@ -94,6 +105,7 @@ class AdaptiveModel {
   static constexpr std::uint32_t kLargestLine = 128;  // symbols of the largest alphabet in a line
   using Block = std::int16_t __attribute__((vector_size(16)));
   static constexpr std::uint32_t kBlock = 8;
+  static constexpr std::uint32_t kRest = 3;   // repeats that promise more of them
   static constexpr std::uint32_t kNear = 16;  // symbols that a search tries first
   static constexpr std::uint32_t kLine = kLargestLine + 2 * kBlock;
   static const std::array<std::int16_t, 2 * kLine> kMore;
@@ -139,6 +151,8 @@ class AdaptiveModel {
   std::uint32_t total_ = 1;
   Table table_ = Table::none;     // none: uniform, not built
   std::uint32_t near_ = 0;        // of a line, where the sixteen sums to be tried first begin
+  std::uint32_t last_ = 0;        // of a line, the latest symbol, mirrored
+  std::uint32_t repeats_ = 0;     // how often it came again in a row
   std::uint32_t last_group_ = 0;  // of levels, group of the latest symbol
   // A line: the frequencies below each symbol, then their total; whole blocks, and seventeen sums
   // at least. Levels: 16 sums over the 256s, then 16 for each of them over its 16s, the frequencies

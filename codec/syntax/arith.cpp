@@ -1,6 +1,8 @@
 #include "codec/syntax/arith.h"
 
+#include <algorithm>
 #include <bit>
+#include <utility>
 
 namespace animeme::fba {
 
@@ -26,15 +28,20 @@ void SegmentEncoder::settle(std::uint32_t carry) {
 // The description writes the bit that says in which half the second quarter of the registers lies,
 // and behind it the pending ones and one more, which are its opposite: the first two bits of
 // low + 1/4, with its carry.
-void SegmentEncoder::flush() {
+int SegmentEncoder::flush() {
   const std::uint64_t rest = (now_.low + 0x4000U) >> 14;
   const int count = now_.bits + 2;
-  settle(std::uint32_t(rest >> count));
-  if (count > 16) put(std::uint32_t(rest >> 16) & ((1U << (count - 16)) - 1), count - 16);
-  const int tail = count > 16 ? 16 : count;
-  put(std::uint32_t(rest) & ((1U << tail) - 1), tail);
   now_ = {};
-  zeros_ = 0;
+  if (!waiting_ && count <= kStuffingRun) {
+    put(std::uint32_t(rest), count);
+  } else {
+    settle(std::uint32_t(rest >> count));
+    const int head = std::max(count - 16, 0);
+    if (head > 0) put(std::uint32_t(rest >> 16) & ((1U << head) - 1), head);
+    const int tail = count - head;
+    put(std::uint32_t(rest) & ((1U << tail) - 1), tail);
+  }
+  return std::exchange(zeros_, 0);
 }
 
 void SegmentEncoder::put_word(std::uint32_t word) {

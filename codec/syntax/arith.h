@@ -77,8 +77,8 @@ class SegmentEncoder {
     }
     now_ = now;
   }
-  /// Ends the segment (an empty one is the two bits 01).
-  void flush();
+  /// Ends the segment (an empty one is the two bits 01). Returns how many zeros are at its end.
+  int flush();
 
  private:
   struct Registers {

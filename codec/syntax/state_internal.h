@@ -124,8 +124,9 @@ struct HighLevelState {
   std::array<std::int32_t, kHighLevelCount> value{};
   std::array<AdaptiveModel, kHighLevelCount> model;
   int fap_quant = 1;
+  std::array<std::int32_t, kHighLevelCount> max{};  // largest levels at that, since reset_models()
 
-  std::int32_t max_level(int which) const { return high_level_max(which, fap_quant); }
+  std::int32_t max_level(int which) const { return max[std::size_t(which)]; }
   std::int32_t step_of(int which) const { return high_level_step(which, fap_quant); }
   void reset_models();
 };
