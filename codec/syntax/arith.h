@@ -26,6 +26,7 @@ inline constexpr int kStuffingRun = 22;  ///< zeros after which a 1 is stuffed
 /// exact, since length * count is at most 2^16 * total and total is below 2^14.
 class Scale {
  public:
+  /// For symbols of a total that share `length`.
   [[gnu::always_inline]] Scale(std::uint32_t length, std::uint32_t total)
       : factor_(length * (std::uint64_t(std::int64_t(0x1p46 / double(std::int32_t(total)))) + 1)) {}
   /// length * count / total.
