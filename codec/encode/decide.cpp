@@ -94,7 +94,8 @@ void mark_stilled(const ClipData& clip, Decision& decision) {
 
 }  // namespace
 
-Decision decide(const ClipData& clip, const EncodeOptions& options, double bit_budget) {
+Decision decide(const ClipData& clip, const EncodeOptions& options, double bit_budget,
+                SearchHint& hint) {
   Decision decision;
   decision.rows.resize(clip.channels.size());
   for (std::size_t i = 0; i < clip.channels.size(); ++i) {
@@ -104,9 +105,12 @@ Decision decide(const ClipData& clip, const EncodeOptions& options, double bit_b
   decision.bap_quant = options.bap_quant;
   if (options.max_rms > 0 || bit_budget > 0) {
     const RateDistortion search(clip, options);
-    const double bits = options.max_rms > 0 ? search.limit_error(options.max_rms, decision) : 0;
-    if (bit_budget > 0 && (options.max_rms <= 0 || bits > bit_budget)) {
-      search.limit_bits(bit_budget, decision);
+    double bits = 0;
+    // With a hint it is known that the error takes too many bits.
+    const bool by_error = options.max_rms > 0 && hint.lambda == 0;
+    if (by_error) bits = search.limit_error(options.max_rms, decision);
+    if (bit_budget > 0 && (!by_error || bits > bit_budget)) {
+      search.limit_bits(bit_budget, decision, hint);
     }
   } else {
     for (std::size_t i = 0; i < clip.channels.size(); ++i) {

@@ -1,6 +1,7 @@
 // Decides which parameters of a clip are coded, with which quantiser and levels. Not installed API.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -62,8 +63,16 @@ bool reaches_too_far(const ClipData& clip, const Decision& decision);
 std::size_t limit_levels(const ClipData& clip, const std::vector<std::size_t>& begins,
                          Decision& decision);
 
+/// Where a search for a number of bits ended, for one that looks for another number.
+struct SearchHint {
+  double bits = 0;             // that it ended at
+  double lambda = 0;           // 0: there is none
+  std::array<int, 2> quant{};  // of the face and the body, those that there are
+};
+
 /// The decision that `options` ask for. `bit_budget`: bits for the parameters of the whole clip
-/// (without headers), 0: any number.
-Decision decide(const ClipData& clip, const EncodeOptions& options, double bit_budget);
+/// (without headers), 0: any number. `hint`: of the same clip with another budget, or none yet.
+Decision decide(const ClipData& clip, const EncodeOptions& options, double bit_budget,
+                SearchHint& hint);
 
 }  // namespace animeme::fba::internal

@@ -161,10 +161,18 @@ Result<Written> write_smallest(const ClipData& clip, Decision& decision,
   return kept;
 }
 
-// One attempt; `bit_budget` as in decide().
+// What planes take besides their values: a header of four bits, and one at the end of a segment;
+// start codes and stuffing. Planes that may be skipped take nothing.
+double least_header_bits(const ClipData& clip, const EncodeOptions& options) {
+  if (options.skip_still) return 0;
+  const bool all = options.stream.plane_start_codes == PlaneStartCodes::all;
+  return double(clip.planes()) * (all ? 5 + 36 : 5);
+}
+
+// One attempt; `bit_budget` and `hint` as in decide().
 Result<Written> attempt(const ClipData& clip, const EncodeOptions& options, double bit_budget,
-                        EncodeReport& report) {
-  Decision decision = internal::decide(clip, options, bit_budget);
+                        internal::SearchHint& hint, EncodeReport& report) {
+  Decision decision = internal::decide(clip, options, bit_budget, hint);
   Result<Written> written = Written{};
   if (options.skip_still) {
     ClipData moving = clip;
@@ -215,14 +223,16 @@ Result<std::vector<std::uint8_t>> encode(const fap::Sequence& face, const Encode
       clip->rate.rate().seconds(double(clip->number.back() - clip->number.front() + 1));
   const double target = options.max_bits_per_second * seconds;
   EncodeReport chosen;
-  Result<Written> written = attempt(*clip, options, target, chosen);
-  // What headers take is known only afterwards: aim lower by what was too much.
-  double budget = target;
+  internal::SearchHint hint;
+  double budget =
+      target > 0 ? std::max(target - least_header_bits(*clip, options), kLeastBudget) : 0;
+  Result<Written> written = attempt(*clip, options, budget, hint, chosen);
+  // What headers take beyond that is known only afterwards: aim lower by what was too much.
   for (int i = 0; i < 4 && written && target > 0; ++i) {
     const double excess = double(written->stream.size()) * 8 - target;
     if (excess <= 0 || budget <= kLeastBudget) break;
     budget = std::max(budget - excess - 0.002 * target, kLeastBudget);
-    written = attempt(*clip, options, budget, chosen);
+    written = attempt(*clip, options, budget, hint, chosen);
   }
   if (!written) return written.error();
   if (report != nullptr) *report = chosen;

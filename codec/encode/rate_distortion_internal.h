@@ -18,8 +18,9 @@ class RateDistortion {
   /// distances and of the rest. Returns the bits.
   double limit_error(double max_rms, Decision& decision) const;
   /// Fills the rows and quantisers with the smallest error within `bits`, or with the fewest bits
-  /// if that cannot be reached.
-  void limit_bits(double bits, Decision& decision) const;
+  /// if that cannot be reached. Begins at the hint, if there is one, and leaves one for another
+  /// number of bits.
+  void limit_bits(double bits, Decision& decision, SearchHint& hint) const;
 
  private:
   // One channel, or a pair of sides that may be merged.
@@ -37,15 +38,25 @@ class RateDistortion {
     double bits = 0;
     double error = 0;
     bool fits = true;
+    bool given_up = false;  // `bits` is what it would have come to
   };
 
   TrellisProblem problem(std::size_t channel, int quant) const;
-  UnitResult solve_unit(const Unit& unit, int quant, double lambda) const;
-  Solution solve(const std::vector<Unit>& units, int quant, double lambda) const;
-  Solution solve_error(const std::vector<Unit>& units, int quant, double max_error) const;
-  int best_quant(const std::vector<Unit>& units, double lambda) const;
-  double fill_lambda(double lambda, Decision& decision) const;
-  double fill_lambda_at_best_quant(double lambda, Decision& decision) const;
+  // A solution with the same quantiser and another lambda, from where the search begins.
+  struct Start {
+    const Solution* solution = nullptr;  // may be null
+    double lambda = 0;
+  };
+  static Start warm_start(const Solution& solution, double lambda, double next);
+  UnitResult solve_unit(const Unit& unit, int quant, double lambda, const Start& start,
+                        const UnitResult* before) const;
+  Solution solve(const std::vector<Unit>& units, int quant, double lambda,
+                 const Start& start) const;
+  // Gives up where that would take more than `most_bits`.
+  Solution solve_error(const std::vector<Unit>& units, int quant, double max_error,
+                       double most_bits, double& lambda) const;
+  int best_quant(const std::vector<Unit>& units, double lambda, int quant,
+                 const Solution& solution) const;
   enum class Kind : std::uint8_t { distances, others, all };
   std::vector<Unit> units_of(bool body, Kind kind) const;
   double moving_values(const std::vector<Unit>& units) const;

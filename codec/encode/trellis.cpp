@@ -1,7 +1,9 @@
 #include "codec/encode/trellis_internal.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 
 #include "codec/encode/clip_internal.h"
 #include "codec/syntax/settings_internal.h"
@@ -12,9 +14,22 @@ namespace animeme::fba::internal {
 namespace {
 
 constexpr int kReach = 3;                    // levels on each side of the nearest one
-constexpr int kStates = 2 * kReach + 1 + 1;  // one more, never taken: eight fill a register
-constexpr int kRounds = 5;                   // of search and counting
+constexpr int kStates = 2 * kReach + 1 + 1;  // one more, never taken: eight fill two registers
+constexpr int kDifferences = 2 * kStates - 1;
+constexpr int kRounds = 5;             // of search and counting
+constexpr double kHardlyLess = 0.998;  // of the cost, where another round is not worth its time
 constexpr float kNever = 1e30F;
+
+// Four states, by an extension that g++ and clang++ share.
+using F4 = float __attribute__((vector_size(16)));
+
+F4 load4(const float* from) {
+  F4 out;
+  std::memcpy(&out, from, sizeof out);
+  return out;
+}
+F4 splat(float value) { return F4{value, value, value, value}; }
+F4 smaller(F4 a, F4 b) { return a < b ? a : b; }
 
 std::span<const std::int32_t> part(std::span<const std::int32_t> row,
                                    std::span<const std::size_t> begins, std::size_t run) {
@@ -22,30 +37,33 @@ std::span<const std::int32_t> part(std::span<const std::int32_t> row,
   return row.subspan(begins[run], end - begins[run]);
 }
 
-double squared_error(const TrellisProblem& problem, std::size_t plane, double rec) {
-  const double a = (problem.a[plane] - rec) / problem.unit;
-  if (problem.b.empty()) return a * a;
-  const double b = (problem.b[plane] - rec) / problem.unit;
-  return a * a + b * b;
-}
-
 double wanted(const TrellisProblem& problem, std::size_t plane) {
   return problem.b.empty() ? problem.a[plane] : (double(problem.a[plane]) + problem.b[plane]) * 0.5;
+}
+
+// Sum of squared differences.
+double squares(std::span<const std::int32_t> values, const std::vector<std::int32_t>& levels,
+               std::int32_t step) {
+  double sum = 0;
+  for (std::size_t plane = 0; plane < levels.size(); ++plane) {
+    const double error = double(values[plane]) - double(levels[plane]) * step;
+    sum += error * error;
+  }
+  return sum;
 }
 
 // Bits and error of levels that are given.
 void measure(const TrellisProblem& problem, TrellisResult& row) {
   row.bits = 0;
-  row.error = 0;
   row.fits = true;
   for (std::size_t run = 0; run < problem.run_begin.size(); ++run) {
     const RunCost cost = run_cost(part(row.levels, problem.run_begin, run), problem.scale);
     row.bits += cost.bits;
     row.fits &= cost.fits;
   }
-  for (std::size_t plane = 0; plane < row.levels.size(); ++plane) {
-    row.error += squared_error(problem, plane, double(row.levels[plane]) * problem.step);
-  }
+  row.error = squares(problem.a, row.levels, problem.step);
+  if (!problem.b.empty()) row.error += squares(problem.b, row.levels, problem.step);
+  row.error /= problem.unit * problem.unit;
 }
 
 struct Limit {
@@ -64,110 +82,148 @@ class Rates {
     histogram_.count(levels, low_, high_);
     const std::uint32_t n = std::uint32_t(high_ - low_ + 1);
     const Bits total = log2_of(histogram_.total() + n);
-    cost_.resize(n);
+    const float of_none = float(lambda * double(total) / double(kOneBit));
+    cost_.assign(n + 2 * kDifferences, kNever);
+    float* cost = cost_.data() + kDifferences;
     for (std::int32_t level = low_; level <= high_; ++level) {
-      const Bits bits = total - log2_of(histogram_[level] + 1);
-      cost_[std::size_t(level - low_)] = float(lambda * double(bits) / double(kOneBit));
+      const std::uint32_t count = histogram_[level];
+      *cost++ = count == 0 ? of_none
+                           : float(lambda * double(total - log2_of(count + 1)) / double(kOneBit));
     }
   }
-  // Costs of `count` differences from `level` on.
-  void copy(std::int64_t level, std::span<float> out) const {
-    for (float& cost : out) {
-      cost = level < low_ || level > high_ ? kNever : cost_[std::size_t(level - low_)];
-      ++level;
-    }
+  // Costs of kDifferences differences from `level` on.
+  const float* from(std::int64_t level) const {
+    const std::int64_t last = std::int64_t(cost_.size()) - kDifferences;
+    return cost_.data() + std::clamp<std::int64_t>(level - low_ + kDifferences, 0, last);
   }
 
  private:
   std::int32_t low_ = 0;
   std::int32_t high_ = 0;
   Histogram histogram_;
-  std::vector<float> cost_;
+  std::vector<float> cost_;  // with differences that cannot be coded on both sides
 };
 
 // The search through time.
 class Search {
  public:
-  using States = std::array<float, kStates>;
-
   explicit Search(const TrellisProblem& problem) : problem_(problem) {
     const std::size_t planes = problem.a.size();
     centre_.resize(planes);
-    from_.resize(planes);
-    error_.resize(planes);
+    rest_.resize(planes);
+    cost_.resize(planes);
+    // Two rows are as far from a level as their mean is twice, and a constant.
+    weight_ = splat(problem.b.empty() ? 1 : 2);
+    const double by_step = 1.0 / problem.step;
+    const double by_unit = 1 / problem.unit;
     for (std::size_t plane = 0; plane < planes; ++plane) {
-      centre_[plane] = std::int32_t(std::lround(wanted(problem, plane) / problem.step));
-      for (int state = 0; state < kStates - 1; ++state) {
-        const double rec = double(centre_[plane] + state - kReach) * problem.step;
-        error_[plane][std::size_t(state)] = float(squared_error(problem, plane, rec));
-      }
-      error_[plane].back() = kNever;
+      const double value = wanted(problem, plane);
+      const double level = value * by_step;
+      centre_[plane] = std::int32_t(level < 0 ? level - 0.5 : level + 0.5);
+      rest_[plane] = float((value - double(centre_[plane]) * problem.step) * by_unit);
     }
+    std::array<float, kStates> offset{};
+    for (int state = 0; state < kStates; ++state) {
+      offset[std::size_t(state)] = float((state - kReach) * problem.step * by_unit);
+    }
+    offset.back() = 1e15F;  // whose square is kNever
+    offset_[0] = load4(offset.data());
+    offset_[1] = load4(offset.data() + 4);
   }
 
   // The best levels at the rates that `levels` imply; false if there are none in range.
   bool improve(std::vector<std::int32_t>& levels, double lambda, const Limit& limit) {
-    States cost{};
     for (std::size_t run = 0; run < problem_.run_begin.size(); ++run) {
       const auto run_levels = part(levels, problem_.run_begin, run);
       rates_.make(run_levels, problem_.scale, lambda, limit);
       const std::size_t first = problem_.run_begin[run];
-      intra(first, cost);
-      for (std::size_t plane = first + 1; plane < first + run_levels.size(); ++plane) {
-        if (!predictive(plane, cost)) return false;
-      }
-    }
-    std::size_t state = cheapest(cost);
-    for (std::size_t plane = levels.size(); plane-- > 0;) {
-      levels[plane] = centre_[plane] + std::int32_t(state) - kReach;
-      state = from_[plane][state];
+      const std::size_t end = first + run_levels.size();
+      if (!forward(first, end)) return false;
+      back(first, end, levels);
     }
     return true;
   }
 
  private:
+  using States = std::array<float, kStates>;
+
   static std::size_t cheapest(const States& cost) {
     return std::size_t(std::min_element(cost.begin(), cost.end()) - cost.begin());
   }
-
-  // Whatever came before: an intra plane depends on nothing.
-  void intra(std::size_t plane, States& cost) {
-    from_[plane].fill(std::int32_t(plane == 0 ? 0 : cheapest(cost)));
-    cost = error_[plane];
+  F4 error(std::size_t plane, std::size_t half) const {
+    const F4 distance = splat(rest_[plane]) - offset_[half];
+    return weight_ * (distance * distance);
+  }
+  // Costs of the differences to all states of a plane from the last state of the plane before;
+  // those from the state before that one begin one further on.
+  const float* rates(std::size_t plane) const {
+    const std::int64_t shift = std::int64_t(centre_[plane]) - centre_[plane - 1];
+    return rates_.from(shift - (kStates - 1));
   }
 
-  // False if no difference is in range. Costs are kept relative to the smallest one, so that they
-  // do not lose digits in long rows.
-  bool predictive(std::size_t plane, States& cost) {
-    std::array<float, 2 * kStates - 1> rate;
-    const std::int64_t shift = std::int64_t(centre_[plane]) - centre_[plane - 1];
-    rates_.copy(shift - (kStates - 1), rate);
-    States next;
-    next.fill(kNever);
-    std::array<std::int32_t, kStates>& from_state = from_[plane];
-    from_state.fill(0);
-    for (std::size_t from = 0; from < kStates; ++from) {
-      const float* row = rate.data() + (kStates - 1 - from);
-      for (std::size_t state = 0; state < kStates; ++state) {
-        const float total = cost[from] + row[state];
-        const bool better = total < next[state];
-        next[state] = better ? total : next[state];
-        from_state[state] = better ? std::int32_t(from) : from_state[state];
+  // The costs of the states of each plane of a run. False if no difference is in range.
+  bool forward(std::size_t first, std::size_t end) {
+    constexpr std::size_t kOften = 16;  // planes, after which costs are made small again
+    for (std::size_t plane = first; plane < end; ++plane) {
+      F4 low = error(plane, 0);
+      F4 high = error(plane, 1);
+      if (plane > first) {
+        const float* before = cost_[plane - 1].data();
+        const float* row = rates(plane) + (kStates - 1);
+        // From seven states; two and two at a time, as each step waits for the one before.
+        F4 best_low[2];
+        F4 best_high[2];
+        for (int from = 0; from < 2; ++from) {
+          const F4 cost = splat(before[from]);
+          best_low[from] = cost + load4(row - from);
+          best_high[from] = cost + load4(row - from + 4);
+        }
+        for (int from = 2; from < kStates - 1; ++from) {
+          const F4 cost = splat(before[from]);
+          best_low[from % 2] = smaller(cost + load4(row - from), best_low[from % 2]);
+          best_high[from % 2] = smaller(cost + load4(row - from + 4), best_high[from % 2]);
+        }
+        low += smaller(best_low[0], best_low[1]);
+        high += smaller(best_high[0], best_high[1]);
       }
-    }
-    const float least = next[cheapest(next)];
-    if (least >= kNever) return false;
-    for (std::size_t state = 0; state < kStates; ++state) {
-      cost[state] = std::min(next[state] - least + error_[plane][state], kNever);
+      std::memcpy(cost_[plane].data(), &low, sizeof low);
+      std::memcpy(cost_[plane].data() + 4, &high, sizeof high);
+      if (plane % kOften == 0 || plane + 1 == end) {
+        // Relative to the smallest, so that they do not lose digits in long rows.
+        const float least = cost_[plane][cheapest(cost_[plane])];
+        if (least >= kNever / 2) return false;
+        for (float& cost : cost_[plane]) cost = std::min(cost - least, kNever);
+      }
     }
     return true;
   }
 
+  // The levels on the way to the cheapest state at the end of a run.
+  void back(std::size_t first, std::size_t end, std::vector<std::int32_t>& levels) const {
+    std::size_t state = cheapest(cost_[end - 1]);
+    for (std::size_t plane = end; plane-- > first;) {
+      levels[plane] = centre_[plane] + std::int32_t(state) - kReach;
+      if (plane == first) return;
+      const float* row = rates(plane) + (kStates - 1) + state;
+      const States& before = cost_[plane - 1];
+      std::size_t best[2] = {0, 1};
+      float least[2] = {before[0] + row[0], before[1] + *(row - 1)};
+      for (std::size_t from = 2; from + 1 < before.size(); ++from) {
+        const float cost = before[from] + *(row - from);
+        best[from % 2] = cost < least[from % 2] ? from : best[from % 2];
+        least[from % 2] = std::min(least[from % 2], cost);
+      }
+      state = least[1] < least[0] ? best[1] : best[0];
+    }
+  }
+
   const TrellisProblem& problem_;
   Rates rates_;
-  std::vector<std::int32_t> centre_;
-  std::vector<std::array<std::int32_t, kStates>> from_;
-  std::vector<States> error_;
+  std::vector<std::int32_t> centre_;  // the level nearest to each value
+  std::vector<float> rest_;           // what is left of the value, in units
+  std::vector<States> cost_;
+  std::array<F4, 2> offset_{};  // of the states from the centre, in units
+  F4 weight_{};
 };
 
 }  // namespace
@@ -199,22 +255,30 @@ TrellisResult still_row(const TrellisProblem& problem) {
 
 namespace {
 
-// Search and counting in turn until nothing is gained. A few rounds with a larger lambda come
-// first: they gather the differences on few symbols, from where the search for the true lambda
-// finds shorter codes than from scattered ones.
+// Search and counting in turn until nothing is gained.
 void settle(const TrellisProblem& problem, Search& search, double lambda, const Limit& limit,
             std::vector<std::int32_t> levels, TrellisResult& best) {
-  for (const double factor : {4.0, 2.0}) {
-    if (!search.improve(levels, factor * lambda, limit)) return;
-  }
   TrellisResult row;
   row.levels = std::move(levels);
   for (int round = 0; round < kRounds; ++round) {
     if (!search.improve(row.levels, lambda, limit)) return;
     measure(problem, row);
-    if (!row.fits || cost_of(row, lambda) >= cost_of(best, lambda)) return;
+    const double before = cost_of(best, lambda);
+    const double now = cost_of(row, lambda);
+    if (!row.fits || now >= before) return;
     best = row;
+    if (now > kHardlyLess * before) return;
   }
+}
+
+// The same, with a few rounds with a larger lambda first: they gather the differences on few
+// symbols, from where the search for the true lambda finds shorter codes than from scattered ones.
+void gather_and_settle(const TrellisProblem& problem, Search& search, double lambda,
+                       const Limit& limit, std::vector<std::int32_t> levels, TrellisResult& best) {
+  for (const double factor : {4.0, 2.0}) {
+    if (!search.improve(levels, factor * lambda, limit)) return;
+  }
+  settle(problem, search, lambda, limit, std::move(levels), best);
 }
 
 // The widest predictive ranges of a row.
@@ -228,19 +292,46 @@ Limit widest(const TrellisProblem& problem, const std::vector<std::int32_t>& lev
   return limit;
 }
 
+// Whether few enough differences lie outside narrower ranges that others could take their place.
+bool can_narrow(const TrellisProblem& problem, const std::vector<std::int32_t>& levels,
+                const Limit& limit) {
+  if (limit.up < 0 || limit.down < 0) return false;
+  const std::int64_t high = level_range(limit.up, problem.scale);
+  const std::int64_t low = -level_range(limit.down, problem.scale);
+  const std::size_t few = 3 + levels.size() / 12;
+  std::size_t outside = 0;
+  for (std::size_t run = 0; run < problem.run_begin.size(); ++run) {
+    const auto row = part(levels, problem.run_begin, run);
+    for (std::size_t plane = 1; plane < row.size(); ++plane) {
+      const std::int64_t change = std::int64_t(row[plane]) - row[plane - 1];
+      outside += change < low || change > high ? 1 : 0;
+    }
+  }
+  return outside <= few;
+}
+
 }  // namespace
 
-TrellisResult search_row(const TrellisProblem& problem, double lambda, const TrellisResult& start) {
+TrellisResult search_row(const TrellisProblem& problem, double lambda, const TrellisResult& start,
+                         std::span<const std::int32_t> warm) {
   TrellisResult best = start;
-  if (!start.fits || lambda == 0) return best;
+  if (!start.fits || lambda == 0 || is_still(start.levels)) return best;
   Search search(problem);
-  settle(problem, search, lambda, {}, start.levels, best);
+  if (warm.empty()) {
+    gather_and_settle(problem, search, lambda, {}, start.levels, best);
+  } else {
+    TrellisResult row;
+    row.levels.assign(warm.begin(), warm.end());
+    measure(problem, row);
+    if (row.fits && cost_of(row, lambda) < cost_of(best, lambda)) best = row;
+    settle(problem, search, lambda, {}, std::move(row.levels), best);
+  }
   // A narrower range makes every symbol cheaper, if its few largest steps can be spread.
   for (bool gained = true; gained;) {
     gained = false;
     const Limit now = widest(problem, best.levels);
     for (const Limit& limit : {Limit{now.up - 1, now.down}, Limit{now.up, now.down - 1}}) {
-      if (limit.up < 0 || limit.down < 0) continue;
+      if (!can_narrow(problem, best.levels, limit)) continue;
       const double before = cost_of(best, lambda);
       settle(problem, search, lambda, limit, best.levels, best);
       gained |= cost_of(best, lambda) < before;
@@ -249,16 +340,19 @@ TrellisResult search_row(const TrellisProblem& problem, double lambda, const Tre
   return best;
 }
 
-TrellisResult search_runs(const TrellisProblem& problem, double lambda) {
-  if (problem.run_begin.size() == 1) return search_row(problem, lambda, plain_row(problem));
+TrellisResult search_runs(const TrellisProblem& problem, double lambda,
+                          std::span<const std::int32_t> warm) {
+  if (problem.run_begin.size() == 1) return search_row(problem, lambda, plain_row(problem), warm);
   constexpr std::size_t kFromItsBegin = 0;
   TrellisResult all;
+  all.levels.reserve(problem.a.size());
   for (std::size_t run = 0; run < problem.run_begin.size(); ++run) {
     TrellisProblem alone = problem;
     alone.a = part(problem.a, problem.run_begin, run);
     if (!problem.b.empty()) alone.b = part(problem.b, problem.run_begin, run);
     alone.run_begin = std::span(&kFromItsBegin, 1);
-    const TrellisResult moving = search_row(alone, lambda, plain_row(alone));
+    const auto warm_run = warm.empty() ? warm : part(warm, problem.run_begin, run);
+    const TrellisResult moving = search_row(alone, lambda, plain_row(alone), warm_run);
     const TrellisResult still = still_row(alone);
     const bool rests = lambda > 0 && still.fits && cost_of(still, lambda) < cost_of(moving, lambda);
     const TrellisResult& best = rests ? still : moving;

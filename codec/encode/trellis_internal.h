@@ -35,13 +35,17 @@ struct TrellisResult {
 
 /// Levels of the plain quantiser (of the mean of both rows).
 TrellisResult plain_row(const TrellisProblem& problem);
-/// Levels for lambda (squared units per bit), starting at `start`. Never worse than it.
-TrellisResult search_row(const TrellisProblem& problem, double lambda, const TrellisResult& start);
+/// Levels for lambda (squared units per bit), starting at `start`. Never worse than it. `warm`:
+/// levels that were found for a lambda near this one, from where the search takes fewer steps; or
+/// empty.
+TrellisResult search_row(const TrellisProblem& problem, double lambda, const TrellisResult& start,
+                         std::span<const std::int32_t> warm = {});
 /// The row that stays where it is nearest to all values.
 TrellisResult still_row(const TrellisProblem& problem);
 /// The better one of search_row() from plain_row() and still_row() for each run by itself: what is
 /// between two intra planes does not depend on the rest.
-TrellisResult search_runs(const TrellisProblem& problem, double lambda);
+TrellisResult search_runs(const TrellisProblem& problem, double lambda,
+                          std::span<const std::int32_t> warm = {});
 
 /// error + lambda * bits.
 inline double cost_of(const TrellisResult& row, double lambda) {
