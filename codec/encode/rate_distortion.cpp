@@ -182,7 +182,7 @@ RateDistortion::Solution RateDistortion::solve_error(const std::vector<Unit>& un
     best.fits = best.error <= max_error && best.fits;
     return best;
   }
-  constexpr double kNearEnough = 0.99;  // of the error
+  constexpr double kNearEnough = 0.994;  // of the error
   constexpr int kTries = 8;
   Guess guess(0.7);  // the slope of the error over lambda, both as logarithms
   double try_next = lambda;
