@@ -310,8 +310,8 @@ void add_options(OptionTable& cli, EncodeOptions& options) {
           "file: the first plane is coarse and the ranges of the others are finer; about 5 % "
           "smaller for speech, for players that keep ranges as numbers of levels");
   cli.add("--quant", options.quant,
-          "Quantiser of face and body; the error of 1 (the default) is not visible, 0 is "
-          "lossless up to +-1860")
+          "Quantiser of face and body; the error of 1 (the default) is not visible (a head "
+          "turns in steps of 0.097 degrees, which our players ease), 0 is lossless up to +-1860")
       ->between(0, 31);
   cli.add("--intra-seconds", options.intra_seconds,
           "Seconds between random access points (intra planes); 0: only where needed (live: "

@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "fap/rate_text.h"
+#include "fap/turns.h"
 #include "tools/app/commands/avatar_export.h"
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/export_options.h"
@@ -107,6 +108,14 @@ speech::ScriptInput input_of(const ExportOptions& options) {
   return input;
 }
 
+// For animations, turns are eased between the steps of the coder.
+Result<fap::Sequence> eased_face(const FaceInput& input, const std::string& path,
+                                 const fap::FillOptions& filling, const LengthLimit& length) {
+  Result<fap::Sequence> clip = shown_face(input, path, filling, length);
+  if (clip) fap::smooth_turns(*clip);
+  return clip;
+}
+
 // A head of the user's own: its file, with the clips in it.
 Result<int> write_avatar(const ExportOptions& options, std::vector<std::uint8_t> bytes) {
   AvatarExport job{options.head, options.output, options.audio, options.sounds, {}};
@@ -122,7 +131,7 @@ Result<int> write_avatar(const ExportOptions& options, std::vector<std::uint8_t>
     if (!input) return input.error();
     fap::FillOptions filling;
     filling.interpolate = filling.complete = true;
-    auto clip = shown_face(*input, each.input, filling, options.length);
+    auto clip = eased_face(*input, each.input, filling, options.length);
     if (!clip) return clip.error();
     const auto script = script_for(options.script, {each.input}, input_of(options));
     if (!script) return script.error();
@@ -145,7 +154,7 @@ Result<int> write_head(const ExportOptions& options, std::vector<std::uint8_t> b
   if (!input) return input.error();
   fap::FillOptions filling;
   filling.interpolate = filling.complete = true;
-  const Result<fap::Sequence> clip = shown_face(*input, options.input, filling, options.length);
+  const Result<fap::Sequence> clip = eased_face(*input, options.input, filling, options.length);
   if (!clip) return clip.error();
   const auto script = script_for(options.script, {options.input}, input_of(options));
   if (!script) return script.error();

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "fap/rate_text.h"
+#include "fap/turns.h"
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/face_stream.h"
 #include "tools/app/commands/interrupt.h"
@@ -49,8 +50,9 @@ Result<int> write_preview(const std::string& path, const fba::AccessUnits& face,
                           const media::MuxInput& sound) {
   Result<FaceInput> input = parse_face(fba::join_access_units(face), path);
   if (!input) return input.error();
-  const Result<fap::Sequence> clip = shown_face(*input, path, {.interpolate = true});
+  Result<fap::Sequence> clip = shown_face(*input, path, {.interpolate = true});
   if (!clip) return clip.error();
+  fap::smooth_turns(*clip);
   media::MuxInput tracks = sound;
   tracks.face = nullptr;
   if (media::usual_codec(path) != media::AudioCodec::opus || sound.encoded == nullptr ||

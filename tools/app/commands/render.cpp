@@ -4,6 +4,7 @@
 
 #include "dam/script/script.h"
 #include "fap/rate_text.h"
+#include "fap/turns.h"
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/fap_names.h"
 #include "tools/app/commands/head_options.h"
@@ -171,9 +172,10 @@ Result<int> render_video(const RenderOptions& options, const Plan& plan) {
   preview.faps = std::move(*faps);
   Result<FaceInput> input = read_face(options.input);
   if (!input) return input.error();
-  const Result<fap::Sequence> clip =
+  Result<fap::Sequence> clip =
       shown_face(*input, options.input, {.interpolate = true}, options.length);
   if (!clip) return clip.error();
+  fap::smooth_turns(*clip);
   const Result<dam::Script> script = script_for(options.script, {options.input}, options.reading);
   if (!script) return script.error();
   if (!options.script.empty()) preview.script = &*script;

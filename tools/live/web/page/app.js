@@ -1,5 +1,6 @@
 // The page itself. Other scripts may take part by window.animeme:
 //   onFrame(values, time)  is called for each plane when it is due; values by FAP number
+//   onTick(now)            is called for each displayed picture, in audio time
 //   onMessage(message)     what the server tells in words
 //   viewport               the element of the face; setView(element) replaces what it shows
 //   session                frames, clock(), latency(), buffered(), gaps
@@ -25,7 +26,7 @@
   element('face').hidden = Boolean(document.querySelector('script[src="head.js"]'));
 
   const animeme = window.animeme = {
-    onFrame: undefined, onMessage: undefined,
+    onFrame: undefined, onTick: undefined, onMessage: undefined,
     viewport: element('viewport'),
     setView(view) { animeme.viewport.replaceChildren(view); },
     asked, flag,
@@ -136,6 +137,7 @@
           `${100 * Math.min(1, Face.opening(values))}%`;
       if (animeme.onFrame) animeme.onFrame(values, frame.time);
     }
+    if (animeme.onTick) animeme.onTick(now);
     if (element('face')) Face.draw(element('face'), values);
     if (performance.now() - measured > 100) {
       measured = performance.now();

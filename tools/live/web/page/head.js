@@ -1,6 +1,42 @@
 
 // A head in three dimensions in place of the schematic face. HeadView and readModel stand in front of
 // this, in the same script.
+// Planes as a motion without steps: turns are eased, and between two planes lies their mixture.
+class LiveMotion {
+  #turns = new TurnSmoother();
+  #newest = -Infinity;
+
+  // Frames come in order, and each is eased once.
+  #ease(frames) {
+    let first = frames.length;
+    while (first > 0 && !frames[first - 1].eased) --first;
+    for (const frame of frames.slice(first)) {
+      if (!(frame.time > this.#newest && frame.time < this.#newest + 1)) this.#turns = new TurnSmoother();
+      this.#newest = frame.time;
+      frame.eased = this.#turns.next(frame.values);
+    }
+  }
+
+  /** Values at a time; undefined before the first plane is due. */
+  at(frames, now) {
+    this.#ease(frames);
+    const next = frames.findIndex((frame) => frame.time > now);
+    const shown = frames.at(next < 0 ? -1 : next - 1);
+    if (!shown || shown.time > now) return undefined;
+    if (next < 0) return shown.eased;
+    const after = frames[next], step = after.time - shown.time;
+    if (step > 2.5 * shown.duration) return shown.eased;  // planes were lost
+    const values = {...shown.eased}, share = (now - shown.time) / step;
+    for (const [fap, value] of Object.entries(values)) {
+      const to = after.eased[fap];
+      if (fap > 2 && to !== undefined) values[fap] = value + (to - value) * share;
+    }
+    return values;
+  }
+}
+
+const differ = (a, b) => Object.keys({...a, ...b}).some((fap) => a[fap] !== b[fap]);
+
 const before = [...animeme.viewport.childNodes];
 try {
   const load = async (path) => {
@@ -25,12 +61,17 @@ try {
   view.camera.listen(canvas);
   animeme.setView(canvas);
   animeme.head = view;
+  const motion = new LiveMotion();
   let last = {};
-  animeme.onFrame = (values) => {
+  const show = (values) => {
     last = values;
     view.show(values);
   };
-  animeme.onFrame({});
+  animeme.onTick = (now) => {
+    const values = motion.at(animeme.session.frames, now);
+    if (values && differ(values, last)) show(values);
+  };
+  show({});
   new ResizeObserver(() => view.draw()).observe(canvas);
 
   const list = document.getElementById('heads');
@@ -42,7 +83,7 @@ try {
     if (!models.has(which)) models.set(which, await load(path(which)));
     model = models.get(which);
     view.setModel(model);
-    animeme.onFrame(last);
+    show(last);
     list.value = which;
   };
   list.addEventListener('change', () => animeme.showHead(Number(list.value)));

@@ -1,5 +1,6 @@
 // A motion as pack_clip() of page.cpp writes it.
 import {ByteReader} from './bytes.js';
+import {easedTurns} from './turns.js';
 
 function readColumns(reader, controls, frames) {
   const columns = {};
@@ -26,6 +27,8 @@ export class Clip {
     this.columns = readColumns(reader, controls, frames);
     /** What the clip does not carry and the head does of itself, such as lids that follow. */
     this.derived = readColumns(reader, derived, frames);
+    /** Turns without the steps of the coder, for playing. */
+    this.eased = easedTurns(this.columns);
     this.size = Math.max(68, ...controls) + 1;
   }
 
@@ -44,14 +47,14 @@ export class Clip {
     return column ? column[frame] : 0;
   }
 
-  /** All values at a time by control; `between`: a mixture of two frames. */
+  /** All values at a time by control; `between`: a mixture of two frames, with eased turns. */
   values(time, between) {
     const out = new Float64Array(this.size);
     const frame = this.frameAt(time);
     const next = Math.min(frame + 1, this.frames - 1);
     const share = between ? Math.min(Math.max((time - this.timeOf(frame)) * this.rate, 0), 1) : 0;
-    for (const [control, column] of
-         [...Object.entries(this.columns), ...Object.entries(this.derived)]) {
+    for (const [control, column] of [...Object.entries(this.columns), ...Object.entries(this.derived),
+                                     ...Object.entries(between ? this.eased : {})]) {
       out[control] = column[frame] + (column[next] - column[frame]) * share;
     }
     return out;
