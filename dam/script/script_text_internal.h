@@ -66,4 +66,7 @@ constexpr bool is_letter_or_digit(char c) { return is_letter(c) || (c >= '0' && 
 
 using fap::detail::lower_case;
 
+/// Fewest letters to put in, leave out or change to make one word of the other.
+std::size_t edit_distance(std::string_view a, std::string_view b);
+
 }  // namespace animeme::dam

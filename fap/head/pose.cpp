@@ -218,11 +218,47 @@ bool show_own_visemes(const Rig& rig, fap::Frame& frame, ControlValues& values) 
   return true;
 }
 
-// Those of a script, in place of what the frame says of the mouth: that shows in pauses alone.
+// What corners of the mouth do beyond speech, in which they are between kSpokenDown and kSpokenUp:
+// a mood pulls them.
+double pulled_corner(double raised) {
+  constexpr double kSpokenDown = -145, kSpokenUp = 100, kSteeperUp = 1.5, kSteeperDown = 2.5;
+  const double beyond = raised - std::clamp(raised, kSpokenDown, kSpokenUp);
+  const double steeper = beyond > 0 ? kSteeperUp : kSteeperDown;
+  return std::clamp(steeper * beyond, -std::abs(raised), std::abs(raised));
+}
+
+// ARKit's smile and frown beside visemes, as far as a mood pulls the corners.
+void pull_corners(const Rig& rig, const fap::Frame& low, double share, ControlValues& values) {
+  struct Puller {
+    std::optional<int> shape;
+    std::size_t fap;
+    double side;  // 1: up
+  };
+  static const std::array<Puller, 4> kPullers = {{{fap::find_arkit("mouthSmileLeft"), 12, 1},
+                                                  {fap::find_arkit("mouthSmileRight"), 13, 1},
+                                                  {fap::find_arkit("mouthFrownLeft"), 12, -1},
+                                                  {fap::find_arkit("mouthFrownRight"), 13, -1}}};
+  constexpr double kLeastEffect = 30, kMostWeight = 0.8;
+  for (const Puller& puller : kPullers) {
+    const double wanted =
+        puller.side * pulled_corner(low.mask[puller.fap] ? low.value[puller.fap] : 0);
+    if (!(wanted > 0)) continue;
+    for (std::size_t i = 0; i < rig.shapes.size(); ++i) {
+      const double effect = puller.side * rig.shapes[i].faps.value[puller.fap];
+      if (rig.shapes[i].arkit != puller.shape || effect < kLeastEffect) continue;
+      values[kFirstShape + i] += float(share * std::min(wanted / effect, kMostWeight)) * kFullShape;
+      break;
+    }
+  }
+}
+
+// Those of a script, in place of what the frame says of the mouth: that shows in pauses alone, but
+// for a smile and its like.
 bool show_script(const Rig& rig, const fap::VisemeWeights& weights, fap::Frame& low,
                  ControlValues& values) {
   if (!has_own_visemes(rig) || !show_visemes(rig, weights, values)) return false;
   const double pause = std::clamp(weights[0], 0.0, 1.0);
+  pull_corners(rig, low, 1 - pause, values);
   for (const int group : kMouthGroups) {
     const auto& [first, size, name] = fap::kGroups[std::size_t(group)];
     for (int f = first; f < first + size; ++f) {

@@ -129,8 +129,10 @@ struct PoseOptions {
   bool follow = true;
   /// What is said at this instant, if it is known (dam::VisemeCurves). A head that
   /// has_own_visemes() shows it by them, as their maker made them, in place of the FAPs of jaw,
-  /// lips and tongue, which show in pauses alone (as far as the weight of silence goes). Of other
-  /// heads the tongue moves as in viseme_shape() of shapes.h, where the frame does not move it.
+  /// lips and tongue, which show in pauses alone (as far as the weight of silence goes); corners
+  /// that are pulled further up or down than speech does (FAP 12, 13) show by ARKit's smile and
+  /// frown. Of other heads the tongue moves as in viseme_shape() of shapes.h, where the frame does
+  /// not move it.
   std::optional<fap::VisemeWeights> visemes = {};
 };
 

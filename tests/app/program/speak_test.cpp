@@ -460,6 +460,48 @@ TEST(Speak, StyleAndLife) {
   EXPECT_EQ(animeme({"speak", "--text", "A", "--style", "2", "-o", dir / "x.fap"}).exit_code, 2);
 }
 
+TEST(Speak, Moods) {
+  const TempDir dir;
+  const auto clip_of = [&](const std::string& text, std::vector<std::string> more) {
+    const std::string path = dir / "clip.fap";
+    std::vector<std::string> arguments = {"speak", "--text", text, "--no-idle-motion", "-o", path};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto result = animeme(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return read_clip(path);
+  };
+  const std::string text = "Bob may move my moon.";
+  const fap::Sequence plain = clip_of(text, {});
+  EXPECT_EQ(clip_of(text, {"--mood", "neutral"}).frames, plain.frames);
+  EXPECT_EQ(clip_of(text + " ", {"--mood", "joy:0"}).frames, plain.frames);
+  const fap::Sequence glad = clip_of(text, {"--mood", "joy"});
+  ASSERT_EQ(glad.frames.size(), plain.frames.size());
+  for (std::size_t i = 0; i < plain.frames.size(); ++i) {
+    EXPECT_GT(glad.frames[i].value[21], 150) << i;
+    if (inner_gap(plain.frames[i]) <= 0 || inner_gap(plain.frames[i]) > kClosed) continue;
+    if (i < 12 || i + 16 > plain.frames.size()) continue;  // silence smiles with open lips
+    EXPECT_EQ(inner_gap(glad.frames[i]), inner_gap(plain.frames[i])) << i;
+  }
+  const fap::Sequence chat = clip_of("It is fine. But this is bad 😢", {});
+  EXPECT_EQ(chat.frames[5].value[31], 0);
+  EXPECT_GT(chat.frames[chat.frames.size() - 14].value[31], 150) << "sad brows";
+
+  const fap::Sequence coded = clip_of(text, {"--mood", "joy:0.5", "--expressions", "instead"});
+  EXPECT_EQ(coded.frames[9].expression, (fap::Expression{1, 32, 0, 0, false, false}));
+  EXPECT_FALSE(coded.frames[9].mask[31]);
+
+  const auto fails = [&](std::vector<std::string> more, const std::string& sentence) {
+    std::vector<std::string> arguments = {"speak", "--text", "A"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto result = animeme(arguments);
+    EXPECT_EQ(result.exit_code, 2) << sentence;
+    EXPECT_THAT(result.err, HasSubstr(sentence));
+  };
+  fails({"--mood", "joyy", "-o", dir / "x.fap"}, "did you mean joy?");
+  fails({"--mood", "joy:3", "-o", dir / "x.fap"}, "between 0 and 1");
+  fails({"--expressions", "beside", "-o", dir / "x.csv"}, "--expressions is for FAPs");
+}
+
 TEST(Follow, GivesTheCurvesOfTheWholeScript) {
   const TempDir dir;
   const std::string phones =

@@ -1,9 +1,13 @@
 // Clips, encoders, filling, ARKit and speech of the C interface against the libraries behind it.
+#include <cstddef>
+#include <cstring>
+
 #include "codec/encode/encode.h"
 #include "codec/encode/live.h"
 #include "dam/model/builtin.h"
 #include "dam/signal/fap_signal.h"
 #include "dam/speaking/idle_motion.h"
+#include "dam/speaking/moods.h"
 #include "dam/speaking/synthesise.h"
 #include "fap/arkit.h"
 #include "fap/fill.h"
@@ -317,6 +321,35 @@ TEST_F(CSpeech, SpeaksAsTheLibraryDoes) {
   ASSERT_TRUE(dam::add_idle_motion(*signal, *script));
   expect_same(speak(nullptr).get(), *dam::to_sequence(*signal));
   EXPECT_NE(std::string(animeme_model_attribution(model.get())).find("GRID"), std::string::npos);
+}
+
+TEST_F(CSpeech, Moods) {
+  const auto script = dam::read_script(text);
+  ASSERT_TRUE(script);
+  dam::SynthesisOptions synthesis;
+  synthesis.articulation = 1;
+  auto signal = dam::synthesise(*dam::builtin_model(), *script, synthesis);
+  ASSERT_TRUE(signal);
+  ASSERT_TRUE(dam::add_idle_motion(*signal, *script));
+  ASSERT_TRUE(dam::add_moods(*signal, *script, dam::MoodTrack(dam::Mood{"joy", 0.5})));
+  animeme_speak_options options;
+  animeme_speak_options_init(&options, sizeof options);
+  EXPECT_EQ(options.mood[0], 0);
+  std::strcpy(options.mood, "joy:0.5");
+  expect_same(speak(&options).get(), *dam::to_sequence(*signal));
+  const auto refused = [&](animeme_status status) {
+    animeme_clip* clip = nullptr;
+    animeme_error error;
+    EXPECT_EQ(animeme_speak(model.get(), text.data(), text.size(), &options, &clip, &error), status)
+        << error.message;
+    EXPECT_EQ(clip, nullptr);
+  };
+  std::strcpy(options.mood, "jooy");
+  refused(ANIMEME_NOT_FOUND);
+  std::memset(options.mood, 'x', sizeof options.mood);  // without an end
+  refused(ANIMEME_NOT_FOUND);
+  options.size = offsetof(animeme_speak_options, mood);  // of a program that does not know it
+  EXPECT_NE(speak(&options).get(), nullptr);
 }
 
 TEST_F(CSpeech, AStreamHasTheSameFramesAndOutlivesItsModel) {

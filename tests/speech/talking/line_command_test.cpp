@@ -36,6 +36,31 @@ TEST(LineCommand, ReadsAllOfThem) {
   EXPECT_EQ(good(R"({"do":"say","text":"x","when":"now","id":null})").when, When::now);
 }
 
+TEST(LineCommand, Moods) {
+  const LineCommand mood = good(R"({"do":"mood","mood":"joy:0.6"})");
+  EXPECT_EQ(mood.what, Do::mood);
+  EXPECT_EQ(*mood.mood, (dam::Mood{"joy", 0.6}));
+  EXPECT_EQ(*good(R"({"do":"mood","mood":"Cheerful","intensity":0.5})").mood,
+            (dam::Mood{"joy", 0.4}));
+  EXPECT_EQ(*good(R"({"do":"mood","mood":{"name":"fear","intensity":1}})").mood,
+            (dam::Mood{"fear", 1}));
+  EXPECT_TRUE(good(R"({"do":"mood","mood":"neutral"})").mood->neutral());
+  EXPECT_EQ(good(R"({"do":"say","text":"x","mood":"sad"})").mood->name, "sadness");
+  EXPECT_FALSE(good(R"({"do":"say","text":"x","mood":null})").mood);
+  EXPECT_EQ(good(R"({"text":"x","mood":{"name":"bored"}})", true).mood->name, "bored");
+  for (const bool json : {false, true}) {
+    EXPECT_THAT(read_line(R"({"do":"mood","mood":"joi"})", json).error().message,
+                HasSubstr("did you mean joy?"));
+    for (const char* wrong :
+         {R"({"do":"mood"})", R"({"do":"mood","mood":3})", R"({"do":"mood","mood":{}})",
+          R"({"do":"mood","mood":"joy","intensity":"x"})",
+          R"({"do":"mood","mood":"joy","intensity":-1})"}) {
+      EXPECT_FALSE(read_line(wrong, json)) << wrong;
+    }
+  }
+  EXPECT_FALSE(read_line(R"({"text":"x","mood":"joi"})", true));
+}
+
 TEST(LineCommand, AllOtherLinesAreSaid) {
   for (const char* text : {"Hello.", "{ is a bracket", "{}", R"({"text": "no do"})", "[1]",
                            "{\"what\" to \"do\" now?", R"(say {"do":"stop"})"}) {

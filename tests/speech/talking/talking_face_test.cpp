@@ -4,9 +4,12 @@
 
 #include <cmath>
 #include <iostream>
+#include <string>
+#include <vector>
 
 #include "dam/model/builtin.h"
 #include "dam/signal/fap_signal.h"
+#include "fap/tables.h"
 
 namespace animeme::speech {
 namespace talking_face_test {
@@ -141,6 +144,105 @@ TEST_F(Face, JoiningNothingIsALineAfterSilence) {
   EXPECT_FALSE(face.join(sentence(), -1));
   EXPECT_FALSE(face.join(sentence(), std::nan("")));
   EXPECT_TRUE(face.speaking()) << "the line before goes on";
+}
+
+// Frames of 0.04 s.
+std::vector<fap::Frame> take(TalkingFace& face, int count) {
+  std::vector<fap::Frame> frames;
+  for (int i = 0; i < count; ++i) {
+    auto frame = face.next();
+    EXPECT_TRUE(frame);
+    frames.push_back(*frame);
+  }
+  return frames;
+}
+
+TEST_F(Face, WithoutAMoodSpeechIsAsItWas) {
+  TalkingFace face = open();
+  ASSERT_TRUE(face.say(sentence()));
+  const auto frames = take(face, 60);
+  dam::SynthesisOptions options;
+  const auto clip = dam::to_sequence(*dam::synthesise(model, sentence(), options));
+  for (std::size_t i = 8; i < 60; ++i) {  // the beginning is led over from rest
+    EXPECT_EQ(frames[i].mask, face.mask());
+    EXPECT_EQ(frames[i].value, clip->frames[i].value) << i;
+  }
+}
+
+TEST_F(Face, MoodsOfTheFaceAndOfALine) {
+  FaceOptions options;
+  options.mood = {"anger", 1};
+  TalkingFace face = *TalkingFace::open(model, options);
+  const auto brow = [&](const std::string& mood) {
+    return int(std::lround(dam::mood_pose({mood, 1}).fap[31]));
+  };
+  EXPECT_EQ(take(face, 1)[0].value[31], brow("anger")) << "from the first frame";
+  LineMoods moods;
+  moods.mood = dam::Mood{"surprise", 1};
+  moods.spans = {{2, 3, dam::Mood{"sadness", 1}, 1}};
+  ASSERT_TRUE(face.say(sentence(), moods));
+  const auto line = take(face, 130);
+  EXPECT_EQ(line[30].value[31], brow("surprise"));
+  EXPECT_EQ(line[68].value[31], brow("sadness"));
+  EXPECT_EQ(line[90].value[31], brow("surprise"));
+  EXPECT_EQ(line[129].value[31], brow("anger")) << "behind the line";
+  face.set_mood({"joy", 1});
+  const auto later = take(face, 12);
+  EXPECT_NE(later[2].value[31], brow("joy"));
+  EXPECT_EQ(later[11].value[31], brow("joy"));
+  face.set_mood({});
+  EXPECT_EQ(take(face, 20)[19].value[31], 0);
+}
+
+TEST_F(Face, MoodsNeverJump) {
+  const std::vector<std::string> names = dam::mood_names();
+  const auto soak = [&](bool moody) {
+    TalkingFace face = open();
+    std::vector<fap::Frame> frames;
+    std::uint32_t seed = 7;
+    const auto below = [&](std::uint32_t n) {
+      seed = seed * 1664525u + 1013904223u;
+      return (seed >> 8) % n;
+    };
+    for (int i = 0; i < 200; ++i) {
+      const dam::Mood mood{names[below(std::uint32_t(names.size()))], 1};
+      const auto what = below(4);
+      LineMoods moods;
+      if (moody && below(2) == 0) moods.mood = mood;
+      if (moody) moods.spans = {{0.5, 1.1, mood, 1}, {0.9, 1.3, std::nullopt, 0.3}};
+      if (what == 0) {
+        EXPECT_TRUE(face.cut());
+      } else if (what == 1) {
+        EXPECT_TRUE(face.join(sentence(), 0.1 * below(5), moods));
+      } else if (what == 2) {
+        EXPECT_TRUE(face.say(sentence(), moods));
+      } else if (moody) {
+        face.set_mood(mood);
+      }
+      for (const fap::Frame& frame : take(face, int(1 + below(40)))) frames.push_back(frame);
+    }
+    return frames;
+  };
+  const auto quickest = [](const std::vector<fap::Frame>& frames, std::size_t fap) {
+    int most = 0;
+    for (std::size_t i = 1; i < frames.size(); ++i)
+      most = std::max(most, std::abs(frames[i].value[fap] - frames[i - 1].value[fap]));
+    return most;
+  };
+  const auto plain = soak(false), moody = soak(true);
+  for (std::size_t fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
+    double low = 0, high = 0;
+    for (const std::string& name : names) {
+      low = std::min(low, dam::mood_pose({name, 1}).fap[fap]);
+      high = std::max(high, dam::mood_pose({name, 1}).fap[fap]);
+    }
+    // A mood takes 0.4 s; the mouth, which speech takes hold of, 0.1 s.
+    const auto& info = fap::info(int(fap));
+    const bool mouth = info.group == 2 || info.group == 8;
+    const double most = (high - low) * 0.04 * (mouth ? 1.6 / 0.1 : 1.6 / 0.4);
+    const double speech = 1.4 * quickest(plain, fap);  // of shouting
+    EXPECT_LE(quickest(moody, fap), speech + most + 1) << fap;
+  }
 }
 
 }  // namespace talking_face_test

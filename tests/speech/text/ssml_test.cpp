@@ -34,6 +34,32 @@ TEST(Ssml, IsToldByContent) {
   EXPECT_FALSE(is_ssml(""));
 }
 
+TEST(Ssml, MoodsAreStyles) {
+  SKIP_WITHOUT_EXPAT();
+  const Document d = read(
+      "<speak xmlns:mstts='x'>a<mstts:express-as style='cheerful'>b<emphasis level='strong'>c"
+      "</emphasis><mstts:express-as style='terrified' styledegree='0.5'>d</mstts:express-as>"
+      "</mstts:express-as><amazon:emotion name='excited' intensity='low'>e</amazon:emotion>"
+      "<google:style name='apologetic'>f</google:style><emphasis level='reduced'>g</emphasis>"
+      "</speak>");
+  std::vector<std::string> all;
+  for (const Item& item : d.items) {
+    all.push_back(utf8(item.text) + " " + (item.mood ? dam::mood_text(*item.mood) : "none"));
+    if (item.mood_gain > 1) all.back() += " more";
+    if (item.mood_gain < 1) all.back() += " less";
+  }
+  EXPECT_THAT(all, testing::ElementsAre("a none", "b joy:0.8", "c joy:0.8 more", "d fear:0.5",
+                                        "e excited:0.6", "f sadness:0.5", "g none less"));
+  EXPECT_THAT(d.warnings, testing::IsEmpty());
+  const Document odd = read(
+      "<speak><mstts:express-as style='zzz'>a</mstts:express-as>"
+      "<mstts:express-as style='sad' styledegree='big'>b</mstts:express-as></speak>");
+  EXPECT_THAT(odd.warnings, testing::ElementsAre(HasSubstr("style=\"zzz\"> is no mood"),
+                                                 HasSubstr("styledegree=\"big\"> is not known")));
+  EXPECT_FALSE(odd.items[0].mood);
+  EXPECT_EQ(odd.items[1].mood->name, "sadness");
+}
+
 TEST(Ssml, ItemsInOrder) {
   SKIP_WITHOUT_EXPAT();
   const Document d = read(

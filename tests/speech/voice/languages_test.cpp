@@ -276,5 +276,44 @@ TEST(OwnScript, MarksOfSsmlHaveTimes) {
   EXPECT_GT(speech->marks[1].time, speech->marks[0].time + 0.6);
 }
 
+TEST(OwnScript, MoodsHaveTheTimesOfTheirWords) {
+  SKIP_WITHOUT_SCRIPTS();
+  const auto start_of = [](const Speech& speech, std::string_view word) {
+    for (const dam::Phone& phone : speech.script.phones)
+      if (phone.word.starts_with(word)) return phone.start;
+    ADD_FAILURE() << "no word " << word;
+    return 0.0;
+  };
+  const auto chat = speak("Good morning. What a lovely day 😀 But my cat has died. 😢", "en");
+  ASSERT_TRUE(chat) << chat.error().describe();
+  ASSERT_EQ(chat->moods.size(), 2u);
+  EXPECT_EQ(chat->moods[0].mood->name, "joy");
+  EXPECT_NEAR(chat->moods[0].start, start_of(*chat, "What"), 0.06);
+  EXPECT_NEAR(chat->moods[0].end, start_of(*chat, "But"), 0.06);
+  EXPECT_EQ(chat->moods[1].mood->name, "sadness");
+  EXPECT_GT(chat->moods[1].end, start_of(*chat, "died"));
+  for (const dam::Phone& phone : chat->script.phones)
+    EXPECT_EQ(phone.word.find("grin"), std::string::npos) << "the name of an emoji is not said";
+
+  const auto smiley = speak("This is nice :-) is it not?", "en"),
+             plain = speak("This is nice is it not?", "en");
+  ASSERT_TRUE(smiley && plain);
+  EXPECT_EQ(smiley->script.phones.size(), plain->script.phones.size());
+  EXPECT_EQ(smiley->moods.size(), 1u);
+
+  const auto ssml = speak(
+      "<speak>One two. <mstts:express-as style='angry'>Three four!</mstts:express-as> "
+      "Five.</speak>",
+      "en");
+  if (!ssml && ssml.error().code == Code::unsupported) GTEST_SKIP() << ssml.error().describe();
+  ASSERT_TRUE(ssml) << ssml.error().describe();
+  ASSERT_EQ(ssml->moods.size(), 2u) << "the mark intensifies";
+  EXPECT_EQ(ssml->moods[0].mood->name, "anger");
+  EXPECT_NEAR(ssml->moods[0].start, start_of(*ssml, "Three"), 0.06);
+  EXPECT_NEAR(ssml->moods[0].end, start_of(*ssml, "Five"), 0.06);
+  EXPECT_FALSE(ssml->moods[1].mood);
+  EXPECT_GT(ssml->moods[1].gain, 1);
+}
+
 }  // namespace languages_test
 }  // namespace animeme::voice

@@ -168,6 +168,42 @@ TEST(VisemeHead, AScriptIsShownByItsOwnShapes) {
   EXPECT_EQ(values[3], float(frame.value[3]));
 }
 
+// A smile goes on while visemes are shown; what speech does with the corners does not make one.
+TEST(VisemeHead, AMoodPullsTheCornersBesideVisemes) {
+  std::vector<NamedPose> poses = visemes_and_blink();
+  const auto shape_of = [](const char* name) {
+    fap::ArkitFrame weights{};
+    weights[std::size_t(*fap::find_arkit(name))] = 1;
+    return fap::arkit_to_fap(weights, fap::kAllArkit);
+  };
+  for (const char* name : {"mouthSmileLeft", "mouthSmileRight"})
+    poses.push_back({name, shape_of(name)});
+  head::Rig rig = head::make_rig(woman_with(poses));
+  for (const char* name : {"mouthFrownLeft", "mouthFrownRight"})
+    rig.shapes.push_back({name, shape_of(name), fap::find_arkit(name), {}});
+  ASSERT_TRUE(head::has_own_visemes(rig));
+  fap::VisemeWeights open{}, half{};
+  open[10] = 1;
+  half[10] = half[0] = 0.5;
+  const auto raised = [](int left, int right) {
+    fap::Frame frame = head::viseme_shape(10);
+    frame.set(12, left);
+    frame.set(13, right);
+    return frame;
+  };
+  EXPECT_GT(said(rig, raised(250, 250), open, "mouthSmileLeft"), 0.2f);
+  EXPECT_EQ(said(rig, raised(250, 250), open, "mouthSmileLeft"),
+            said(rig, raised(250, 250), open, "mouthSmileRight"));
+  EXPECT_FLOAT_EQ(said(rig, raised(250, 250), open, "viseme_aa"), 1);
+  EXPECT_GT(said(rig, raised(250, 0), open, "mouthSmileLeft"), 0.2f) << "an ironic one";
+  EXPECT_EQ(said(rig, raised(250, 0), open, "mouthSmileRight"), 0);
+  EXPECT_GT(said(rig, raised(-260, -260), open, "mouthFrownRight"), 0.1f);
+  for (const int spoken : {90, 0, -140}) {
+    for (const char* name : {"mouthSmileLeft", "mouthFrownLeft"})
+      EXPECT_EQ(said(rig, raised(spoken, spoken), open, name), 0) << spoken;
+  }
+}
+
 TEST(VisemeHead, BesideArkitVisemesAreForFap1Alone) {
   std::vector<NamedPose> poses = visemes();
   for (const char* name : {"jawOpen", "mouthFunnel", "mouthPucker", "mouthClose",

@@ -6,12 +6,14 @@
 #include "dam/script/script.h"
 #include "dam/signal/fap_signal.h"
 #include "dam/speaking/idle_motion.h"
+#include "dam/speaking/moods.h"
 #include "dam/speaking/synthesise.h"
 #include "dam/speaking/viseme_track.h"
 #include "fap/rate_text.h"
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/face_stream.h"
 #include "tools/app/commands/face_text.h"
+#include "tools/app/commands/mood_options.h"
 #include "tools/app/commands/motion_options.h"
 #include "tools/app/commands/preview.h"
 #include "tools/app/commands/spoken_options.h"
@@ -44,7 +46,8 @@ struct SpeakOptions {
   bool no_closure = false;
   std::optional<bool> idle_motion;  // nothing: where it can be had
   bool exact = false;
-  std::string visemes;
+  std::string visemes, expressions;  // where FAP 1 and 2 go
+  std::string mood;
   bool no_words = false;
   bool subtitles = false;
   bool language_told = false;
@@ -279,6 +282,11 @@ Result<int> write_output(const SpeakOptions& options, dam::Signal signal,
     auto added = dam::add_idle_motion(signal, spoken.script, {1, options.seed});
     if (!added && options.idle_motion.has_value()) return added.error();
   }
+  const dam::MoodTrack moods(mood_of(options.mood), spoken.moods);
+  if (!curves || !options.mood.empty()) {
+    auto added = dam::add_moods(signal, spoken.script, moods);
+    if (!added && !options.mood.empty()) return added.error();
+  }
   if (is_arkit_output(options.output)) return write_arkit(options, signal);
   if (curves) return write_curves(options.output, signal);
   Result<fap::Sequence> clip = dam::to_sequence(signal);
@@ -288,6 +296,11 @@ Result<int> write_output(const SpeakOptions& options, dam::Signal signal,
     const bool instead = options.visemes == "instead";
     dam::show_visemes(spoken.script, *clip,
                       instead ? dam::VisemePlace::instead : dam::VisemePlace::beside);
+  }
+  if (!options.expressions.empty()) {
+    const bool instead = options.expressions == "instead";
+    dam::show_expressions(moods, *clip,
+                          instead ? dam::ExpressionPlace::instead : dam::ExpressionPlace::beside);
   }
   return write_result(options, *clip, spoken);
 }
@@ -359,9 +372,12 @@ Result<int> run(SpeakOptions& options) {
   }
   for (const std::string& output : options.outputs) {
     const std::string extension = extension_of(output);
-    if (!options.visemes.empty() && (extension == ".csv" || extension == ".json"))
+    const bool curves = extension == ".csv" || extension == ".json";
+    if (!options.visemes.empty() && curves)
       return usage_error(
           "--visemes is for FAPs; export writes tables of visemes (talk.visemes.csv)");
+    if (!options.expressions.empty() && curves)
+      return usage_error("--expressions is for FAPs, which .csv and .json do not hold");
   }
   Result<fap::Rate> rate = fap::parse_rate(options.rate);
   if (!rate) return rate.error();
@@ -440,6 +456,13 @@ void add_options(OptionTable& cli, SpeakOptions& options) {
   cli.add("--idle-motion,.--life,!--no-idle-motion,!.--no-life", options.idle_motion,
           "Add blinks, and small motion of brows and head that follows the stresses; "
           "default: yes, but not for curves of the model (.csv)");
+  add_mood_option(cli, options.mood);
+  cli.add(
+         "--expressions", options.expressions,
+         "Also code moods as FAP 2, for players that support only that: 'instead' of brows, cheeks "
+         "and nose, or 'beside' them")
+      ->value("PLACE")
+      ->one_of("instead beside");
   cli.add("--visemes", options.visemes,
           "Also set FAP 1, for players that only support visemes: 'instead' of jaw, lips and "
           "tongue, or 'beside' them")
@@ -465,7 +488,8 @@ void add_options(OptionTable& cli, SpeakOptions& options) {
   cli.add("--json", options.json, "Print a machine-readable summary");
   cli.show_in_help_all(
       "Details of coding and alignment",
-      "--rms --kbps --intra-seconds --audio-codec --audio-bitrate --exact --min-confidence");
+      "--rms --kbps --intra-seconds --audio-codec --audio-bitrate --exact --min-confidence "
+      "--visemes --expressions");
 }
 
 }  // namespace

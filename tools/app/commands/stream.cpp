@@ -7,6 +7,7 @@
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/face_stream.h"
 #include "tools/app/commands/interrupt.h"
+#include "tools/app/commands/mood_options.h"
 #include "tools/app/commands/report.h"
 #include "tools/app/commands/stream_options.h"
 #include "tools/formats/media/container.h"
@@ -37,6 +38,7 @@ std::string bad_options(const StreamOptions& options) {
     return "--loop and --fast are for clips, --say-audio comes in its own time";
   }
   if (voice && what.idle_motion) return "--idle-motion is for clips and --say";
+  if (voice && !options.mood.empty()) return "--mood is for clips and --say";
   if (said && !what.spoken.audio.empty()) {
     return "--audio goes with a face, not with --say, whose voice speaks as the lines come";
   }
@@ -232,6 +234,7 @@ Result<int> run(StreamOptions& options) {
   if (const std::string bad = bad_options(options); !bad.empty()) return usage_error(bad);
   Result<fap::Rate> rate = fap::parse_rate(options.rate);
   if (!rate) return rate.error();
+  options.program.mood = mood_of(options.mood);
   if (!options.pcm.empty()) {
     const auto bare = speech::parse_bare_sound(options.pcm);
     if (!bare) return bare.error();

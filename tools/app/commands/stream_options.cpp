@@ -1,6 +1,7 @@
 #include "tools/app/commands/stream_options.h"
 
 #include "tools/app/commands/head_options.h"
+#include "tools/app/commands/mood_options.h"
 #include "tools/app/commands/motion_options.h"
 #include "tools/app/commands/options.h"
 #include "tools/app/commands/spoken_options.h"
@@ -51,6 +52,7 @@ void add_source_options(OptionTable& cli, StreamOptions& options) {
       ->frame_rate()
       ->show_default();
   add_motion_options(cli, options.program.motion);
+  add_mood_option(cli, options.mood);
   cli.add("--idle-motion,.--life", options.program.idle_motion,
           "Add blinks, and small motion of brows and head");
   cli.add("--seed", options.program.seed,

@@ -25,6 +25,7 @@ struct StreamOptions {
   std::string codec;             ///< --audio-codec
   StreamSettings limits;         ///< --rms, --kbps and --small
   std::string rate = "25";       ///< --rate
+  std::string mood;              ///< --mood
   std::string pcm;               ///< --pcm
   std::string events;            ///< --events
   bool no_sound = false;         ///< --no-sound

@@ -331,6 +331,10 @@ typedef struct animeme_speak_options {
   double idle_motion;  ///< 1; 0..2, brows and head; below 0: no blinks either. animeme_speak() only
   uint64_t seed;       ///< 1; seed of the idle motion
   double look_ahead;   ///< -1; seconds, 0..60; below 0: unlimited. animeme_speech only
+  /// "": neutral. NAME or NAME:INTENSITY, ended by 0: "joy", "anger:0.5", "thinking" ... (the names
+  /// of `animeme speak --mood`). NOT_FOUND: no such mood; UNSUPPORTED: a model that has neither
+  /// FAPs nor ARKit's shapes. animeme_speak() only
+  char mood[32];
 } animeme_speak_options;
 
 /// Sets the defaults.

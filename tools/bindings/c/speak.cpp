@@ -1,11 +1,14 @@
 // Scripts to frames, at once or as they are made.
+#include <algorithm>
 #include <deque>
+#include <iterator>
 
 #include "dam/model/builtin.h"
 #include "dam/model/model.h"
 #include "dam/script/script.h"
 #include "dam/signal/fap_signal.h"
 #include "dam/speaking/idle_motion.h"
+#include "dam/speaking/moods.h"
 #include "dam/speaking/stream.h"
 #include "dam/speaking/synthesise.h"
 #include "tools/bindings/c/c_internal.h"
@@ -46,6 +49,12 @@ dam::SynthesisOptions synthesis_options(const animeme_speak_options& from) {
   return options;
 }
 
+Result<dam::Mood> mood_of(const animeme_speak_options& options) {
+  const auto* end = std::find(std::begin(options.mood), std::end(options.mood), '\0');
+  if (end == options.mood) return dam::Mood{};
+  return dam::read_mood({options.mood, std::size_t(end - options.mood)});
+}
+
 animeme_status speak_clip(const dam::Model& model, std::string_view text,
                           const animeme_speak_options& options, animeme_clip** out,
                           animeme_error* error) {
@@ -58,6 +67,10 @@ animeme_status speak_clip(const dam::Model& model, std::string_view text,
     // Whose rig is unknown moves by its own channels alone.
     if (!added && added.error().code != Code::unsupported) return fail(error, added.error());
   }
+  const auto mood = mood_of(options);
+  if (!mood) return fail(error, mood.error());
+  const auto moody = dam::add_moods(*signal, *script, dam::MoodTrack(*mood));
+  if (!moody) return fail(error, moody.error());
   auto sequence = dam::to_sequence(*signal);
   if (!sequence) return fail(error, sequence.error());
   auto clip = std::make_unique<animeme_clip>();

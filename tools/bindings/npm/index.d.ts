@@ -144,6 +144,8 @@ export interface SpeakOptions {
   idleMotion?: number;
   /** Seed of the idle motion (1). */
   seed?: number | bigint;
+  /** "joy", "anger:0.5", "thinking" ... ("neutral"). Not of begin(). */
+  mood?: string;
   /** For begin(): seconds; below 0: unlimited (-1). */
   lookAhead?: number;
 }

@@ -3,6 +3,7 @@
 
 #include "dam/signal/fap_signal.h"
 #include "dam/speaking/idle_motion.h"
+#include "dam/speaking/moods.h"
 #include "dam/speaking/stream.h"
 #include "tools/bindings/python/python_internal.h"
 #include "tools/speech/talking/spoken.h"
@@ -22,6 +23,7 @@ struct Motion {
   dam::SynthesisOptions synthesis;
   std::optional<bool> idle_motion;
   std::uint64_t seed = 1;
+  dam::Mood mood;
 };
 
 Result<Speech> spoken_of(speech::SpokenOptions source, const dam::Script* script,
@@ -51,10 +53,14 @@ Result<void> move_face(const dam::Model& model, Motion motion, Speech& speech) {
   auto signal = speech::move_face(model, speech.spoken, motion.synthesis);
   if (!signal) return signal.error();
   speech.signal = std::move(*signal);
-  if (!motion.idle_motion.value_or(true)) return {};
-  const auto added = dam::add_idle_motion(speech.signal, speech.spoken.script, {1, motion.seed});
-  // Without being asked: models of other rigs do without.
-  if (!added && motion.idle_motion) return added.error();
+  if (motion.idle_motion.value_or(true)) {
+    const auto added = dam::add_idle_motion(speech.signal, speech.spoken.script, {1, motion.seed});
+    // Without being asked: models of other rigs do without.
+    if (!added && motion.idle_motion) return added.error();
+  }
+  const auto moody = dam::add_moods(speech.signal, speech.spoken.script,
+                                    dam::MoodTrack(motion.mood, speech.spoken.moods));
+  if (!moody && !motion.mood.neutral()) return moody.error();
   return {};
 }
 
@@ -63,7 +69,7 @@ std::unique_ptr<Speech> speak(const Model& model, const py::object& said, const 
                               const py::object& rate, double style, double sharpness,
                               std::optional<double> articulation, bool closure,
                               std::optional<bool> idle_motion, std::uint64_t seed, int speed,
-                              int pitch, const std::string& tts) {
+                              int pitch, const std::string& tts, const std::string& mood) {
   speech::SpokenOptions source;
   std::optional<dam::Script> script;
   if (py::isinstance<py::str>(said)) {
@@ -94,7 +100,8 @@ std::unique_ptr<Speech> speak(const Model& model, const py::object& said, const 
                  .sharpness = sharpness,
                  .articulation = articulation},
                 idle_motion,
-                seed};
+                seed,
+                value_of(dam::read_mood(mood))};
   WarningLog heard;
   auto speech = unlocked([&]() -> Result<Speech> {
     auto made = spoken_of(source, script ? &*script : nullptr, heard);
@@ -231,6 +238,7 @@ path, preset, quant, max_rms, max_bits_per_second, intra_seconds: as for Clip.sa
             py::arg("sharpness") = 1.0, py::arg("articulation") = py::none(),
             py::arg("closure") = true, py::arg("idle_motion") = py::none(), py::arg("seed") = 1,
             py::arg("speed") = 175, py::arg("pitch") = 50, py::arg("tts") = "",
+            py::arg("mood") = "neutral",
             R"(Speaks: returns a Speech.
 
 said: a text, plain or SSML, for a synthetic voice; or phones, tuples (start, end, label[, word]):
@@ -247,6 +255,7 @@ idle_motion: blinks, brows and head; None: where the controls of the model are k
 seed: of the idle motion: another seed, other times of blinks.
 speed, pitch: words a minute (80..450) and pitch (0..100) of the synthetic voice.
 tts: command of a voice of yours, that writes sound to {wav}.
+mood: "joy", "anger:0.5", "thinking" ...; SSML, emoji and exclamation marks of the text change it.
 
 What a voice left out or spelled is warned of as InputWarning. Raises Error. Other threads run
 meanwhile.)");

@@ -123,6 +123,15 @@ Result<HeadSettings> read_settings(const Json& json, HeadSettings settings) {
     members.number("articulate", 0, dam::kMostArticulation, articulation);
   if (articulation >= 0) settings.motion.articulation = articulation;
   members.flag("idle_motion", settings.idle_motion);
+  std::string mood;
+  if (members.text("mood", mood)) {
+    const Result<dam::Mood> read = dam::read_mood(mood);
+    if (read) {
+      settings.mood = *read;
+    } else {
+      members.fault("\"mood\": " + read.error().message);
+    }
+  }
   members.number("seed", 0, 1e9, settings.seed);
   members.number("intra_seconds", 0.04, 60, settings.intra_seconds);
   members.number("quant", 0, 31, settings.quant);
@@ -149,6 +158,7 @@ Json settings_json(const HeadSettings& settings) {
           {"articulate",
            settings.motion.articulation ? Json(*settings.motion.articulation) : Json(nullptr)},
           {"idle_motion", settings.idle_motion},
+          {"mood", dam::mood_text(settings.mood)},
           {"seed", settings.seed},
           {"intra_seconds", settings.intra_seconds},
           {"quant", settings.quant},

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "dam/script/mood.h"
 #include "dam/speaking/synthesise.h"
 #include "fap/result.h"
 #include "tools/formats/common/json.h"
@@ -23,6 +24,7 @@ struct HeadSettings {
   voice::VoiceOptions voice;     ///< "lang", "speed" (words a minute), "pitch"
   dam::SynthesisOptions motion;  ///< "rate", "style", "sharpness", "articulate"
   bool idle_motion = true;       ///< "idle_motion": blinks and small motion of brows and head
+  dam::Mood mood;                ///< "mood": a name of dam::read_mood(), also "joy:0.6"
   std::uint64_t seed = 1;        ///< "seed" of idle motion, 0..1e9
   double intra_seconds = 1;      ///< "intra_seconds": interval of intra planes
   int quant = 1;                 ///< "quant", 0..31

@@ -8,6 +8,7 @@
 
 #include "dam/signal/fap_signal.h"
 #include "dam/speaking/idle_motion.h"
+#include "dam/speaking/moods.h"
 #include "tools/speech/talking/pieces.h"
 
 namespace animeme::live {
@@ -60,6 +61,8 @@ Result<Clip> spoken_clip(const ProgramOptions& options, fap::Rate rate, const to
     auto added = dam::add_idle_motion(*signal, spoken->script, {1, options.seed});
     if (!added) return added.error();
   }
+  auto moody = dam::add_moods(*signal, spoken->script, dam::MoodTrack(options.mood, spoken->moods));
+  if (!moody && !options.mood.neutral()) return moody.error();
   Result<fap::Sequence> clip = dam::to_sequence(*signal);
   if (!clip) return clip.error();
   return code_live_clip(*clip, spoken->audio ? &*spoken->audio : nullptr, options.coding);
@@ -90,7 +93,7 @@ Result<void> open_speaker(const ProgramOptions& options, fap::Rate rate, Program
   program.lines = std::move(*lines);
 
   speech::SpeakerOptions settings;
-  settings.face = {synthesis_of(options, rate), options.idle_motion, options.seed};
+  settings.face = {synthesis_of(options, rate), options.idle_motion, options.seed, options.mood};
   settings.fap_quant = options.coding.quant;
   settings.intra_seconds = options.coding.intra_seconds;
   settings.voice_rate = program.lines->sample_rate();

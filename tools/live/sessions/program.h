@@ -33,6 +33,7 @@ struct ProgramOptions {
   dam::SynthesisOptions motion;                     ///< its rate, frames and tail are not used
   bool idle_motion = false;                         ///< blinks and small motion of brows and head
   std::uint64_t seed = 1;                           ///< of the idle motion
+  dam::Mood mood;                                   ///< of the face
   bool loop = false;                                ///< repeat clips
   double duration = std::numeric_limits<double>::infinity();  ///< seconds
 };

@@ -13,8 +13,9 @@ using tools::Json;
 using Do = LineCommand::Do;
 using When = LineCommand::When;
 
-constexpr std::pair<std::string_view, Do> kDos[] = {
-    {"say", Do::say}, {"stop", Do::stop}, {"drop", Do::drop}, {"mark", Do::mark}, {"end", Do::end}};
+constexpr std::pair<std::string_view, Do> kDos[] = {{"say", Do::say},   {"stop", Do::stop},
+                                                    {"drop", Do::drop}, {"mark", Do::mark},
+                                                    {"end", Do::end},   {"mood", Do::mood}};
 constexpr std::pair<std::string_view, When> kWhens[] = {
     {"now", When::now}, {"next", When::next}, {"last", When::last}};
 
@@ -50,6 +51,27 @@ Result<Value> value_of(const std::string& member, const std::string& name,
                                          "\"; it is one of " + list);
 }
 
+// Of a member "mood", with an "intensity" in it or beside it.
+Result<std::optional<dam::Mood>> read_line_mood(const Json& object) {
+  const Json* found = object.find("mood");
+  if (found == nullptr || found->is_null()) return std::optional<dam::Mood>();
+  const bool inside = found->is_object();
+  const Json* name = inside ? found->find("name") : found;
+  const Json* intensity = inside ? found->find("intensity") : object.find("intensity");
+  if (name == nullptr || !name->is_string()) {
+    return make_error(Code::syntax,
+                      "\"mood\" has to be a text or {\"name\": ..., \"intensity\": ...}");
+  }
+  const bool numbered = intensity != nullptr && !intensity->is_null();
+  if (numbered && !intensity->is_number()) {
+    return make_error(Code::syntax, "\"intensity\" has to be a number");
+  }
+  auto mood = numbered ? dam::make_mood(name->get<std::string>(), intensity->get<double>())
+                       : dam::read_mood(name->get<std::string>());
+  if (!mood) return mood.error();
+  return std::optional(std::move(*mood));
+}
+
 LineCommand said(std::string line) {
   LineCommand command;
   command.text = line;
@@ -75,6 +97,15 @@ Result<LineCommand> command_of(const Json& object, std::string line, bool json) 
     command.when = *place;
   }
   command.id = std::move(*id);
+  if (command.what == Do::say || command.what == Do::mood) {
+    auto mood = read_line_mood(object);
+    if (!mood) return mood.error();
+    command.mood = std::move(*mood);
+  }
+  if (command.what == Do::mood && !command.mood) {
+    return make_error(Code::invalid_argument,
+                      "there is no mood; put its name into \"mood\": joy, neutral ...");
+  }
   if (command.what != Do::say) return command;
   command.text = std::move(*text);
   command.payload = json ? std::move(line) : command.text;
@@ -98,6 +129,9 @@ Result<LineCommand> read_line(std::string line, bool json) {
   LineCommand piece;
   if (const auto id = text_of(*object, "id")) piece.id = *id;
   if (const auto text = text_of(*object, "text")) piece.text = *text;
+  auto mood = read_line_mood(*object);
+  if (!mood) return mood.error();
+  piece.mood = std::move(*mood);
   piece.payload = std::move(line);
   return piece;
 }

@@ -5,13 +5,19 @@
 ///     {"do": "drop"}                                          clear the queue
 ///     {"do": "say", "text": "Yes?", "when": "now", "id": "7"} stop, then say this
 ///     {"do": "mark", "id": "half"}                            report when this is reached
+///     {"do": "mood", "mood": "joy:0.6"}                       the mood from now on
 ///     {"do": "end"}                                           end when everything is spoken
+///
+/// Lines to say may have a "mood" of their own: "joy", "joy:0.6" or {"name": "joy", "intensity":
+/// 0.6}; names are those of dam::read_mood().
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "dam/script/mood.h"
 #include "fap/result.h"
 
 namespace animeme::speech {
@@ -19,7 +25,7 @@ namespace animeme::speech {
 /// One line of input.
 struct LineCommand {
   /// Kind of the line.
-  enum class Do : std::uint8_t { say, stop, drop, mark, end };
+  enum class Do : std::uint8_t { say, stop, drop, mark, end, mood };
   /// Position in the queue.
   enum class When : std::uint8_t {
     now,   ///< replaces current speech and the queue
@@ -31,6 +37,8 @@ struct LineCommand {
   std::string id;          ///< say, mark: as given; empty: none
   std::string text;        ///< say: the words, if known
   std::string payload;     ///< say: input of LineMaker::make
+  /// say: of the line, nullopt: that of the head; mood: given
+  std::optional<dam::Mood> mood;
 };
 
 /// Maximum size of a command among lines of text, bytes.
@@ -40,8 +48,8 @@ inline constexpr std::size_t kMostCommand = std::size_t(1) << 20;
 /// other line is spoken. `json`: lines are pieces (pieces.h), whose "id" and "text" are used; a
 /// piece with "do": "say" has a position in the queue. If lines are text, one that begins with {
 /// and is not a command remains text, unless it is broken JSON with a "do" in it. Errors: syntax
-/// (broken JSON, a member of a wrong type), not_found (unknown "do" or "when"), invalid_argument
-/// (nothing to say).
+/// (broken JSON, a member of a wrong type), not_found (unknown "do", "when" or mood),
+/// invalid_argument (nothing to say, an intensity out of range).
 Result<LineCommand> read_line(std::string line, bool json);
 
 }  // namespace animeme::speech

@@ -60,6 +60,14 @@ Result<void> LineQueue::push(std::string line, double arrived) {
     case LineCommand::Do::end:
       closed_ = true;
       break;
+    case LineCommand::Do::mood: {
+      LineNews news;
+      news.what = LineNews::What::mood;
+      news.mood = *command->mood;
+      news.at = arrived;
+      news_.push_back(std::move(news));
+      break;
+    }
   }
   changed_.notify_all();
   return {};
@@ -82,6 +90,7 @@ void LineQueue::say(LineCommand command, double arrived) {
     if (i > 0) ++number_;
     Entry entry{.line = number_, .id = command.id, .arrived = arrived};
     if (entry.id.empty()) entry.id = std::to_string(number_);
+    entry.mood = command.mood;
     entry.text = parts.size() > 1 ? parts[i] : command.text;
     entry.payload = std::move(parts[i]);
     tell(LineNews::What::queued, entry, {}, arrived);
@@ -190,6 +199,7 @@ void LineQueue::made(std::uint64_t line, Result<SpokenLine> speech, double spoke
   if (!speech->doubt.empty()) warnings_.push_back(name + ": " + speech->doubt);
   speech->line = line;
   speech->id = entry->id;
+  speech->mood = entry->mood;
   if (!entry->text.empty()) speech->text = entry->text;
   speech->arrived = entry->arrived;
   speech->spoken = spoken;

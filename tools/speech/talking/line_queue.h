@@ -67,6 +67,7 @@ class LineQueue : public LineSource {
     std::string id, text, payload;
     double arrived = 0;
     bool mark = false;
+    std::optional<dam::Mood> mood;
     std::optional<SpokenLine> speech;  // nothing: not made
   };
   using Entries = std::list<Entry>;

@@ -36,6 +36,7 @@ struct SpokenLine {
   std::uint64_t line = 0;  ///< number of the line in the input, from 1; later ones are larger
   std::string id;          ///< the given name, or else its number
   bool mark = false;       ///< a mark in the queue without speech, named `id`
+  std::optional<dam::Mood> mood;  ///< of the whole line; nullopt: that of the head
 };
 
 /// News of a line in the queue.
@@ -46,6 +47,7 @@ struct LineNews {
     cancelled,  ///< it will never be returned: `why`
     stopped,    ///< end current speech and all lines before number `line`
     dropped,    ///< drop lines before number `line` that were returned but have not begun
+    mood,       ///< the head has another mood: `mood`
   };
   What what = What::queued;  ///< kind
   std::uint64_t line = 0;    ///< SpokenLine::line
@@ -53,6 +55,7 @@ struct LineNews {
   std::string text;          ///< the text
   std::string why;           ///< a few words
   bool mark = false;         ///< it is a mark
+  dam::Mood mood;            ///< a mood
   double at = 0;             ///< instant on the clock of the lines
 };
 

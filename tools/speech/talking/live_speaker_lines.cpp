@@ -65,6 +65,9 @@ void LiveSpeaker::Impl::follow(const LineNews& news, double time) {
       event.why = news.why;
       if (news.mark) event.line = 0;
       break;
+    case LineNews::What::mood:
+      face.set_mood(news.mood);
+      return;
     case LineNews::What::stopped:
     case LineNews::What::dropped: {
       const bool all = news.what == LineNews::What::stopped;
@@ -162,16 +165,18 @@ Result<void> LiveSpeaker::Impl::begin(SpokenLine& line, LineTrace& trace) {
   trace.begun = clock->now();
   if (auto ok = convert(line.speech.audio); !ok) return ok;
   const dam::Script& script = line.speech.script;
+  const LineMoods moods{line.mood, line.speech.moods};
   Result<Line> shown = Line{};
   std::int64_t start = 0;
   if (line.joins) {
     // Its face is made with that of the piece before, so that the mouth goes from one to the other
     // as within a sentence.
     start = place_after_the_last();
-    shown = face.join(script, std::max(double(start) / options.voice_rate - frame_due(), 0.0));
+    shown =
+        face.join(script, std::max(double(start) / options.voice_rate - frame_due(), 0.0), moods);
   } else {
     start = std::llround(frame_due() * options.voice_rate);
-    shown = face.say(script);
+    shown = face.say(script, moods);
   }
   if (!shown) return shown.error();
   const LineTraces::Signs signs{shown->first_moved * frame_ticks, lay(start, line)};

@@ -140,6 +140,8 @@ Result<SpokenLine> read_piece(std::string_view json, const voice::VoiceOptions& 
   if (!piece) return piece.error();
   Result<media::Pcm> audio = sound_of(*piece);
   if (!audio) return audio.error();
+  (void)take(*piece, {"mood"});       // of line_command.h
+  (void)take(*piece, {"intensity"});  // of it
   Json script = take(*piece, {"script"});
   Result<std::string> language = take_text(*piece, {"language", "lang"});
   if (!language) return language.error();

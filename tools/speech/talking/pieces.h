@@ -16,7 +16,7 @@
 /// - script: timings: text in any script format, or JSON of one
 /// - text: what is said; without timings the sound is aligned with it
 /// - language, lang: of the text
-/// - id: its name in events (line_events.h); do, when: see line_command.h
+/// - id: its name in events (line_events.h); do, when, mood: see line_command.h
 ///
 /// Without `script` the piece itself may be JSON of any format that scripts::read_labels() knows:
 /// words with times, events of Azure, characters of ElevenLabs, visemes. Times count from the start

@@ -10,6 +10,7 @@
 #include "tools/formats/files/files.h"
 #include "tools/formats/scripts/script_text.h"
 #include "tools/speech/talking/written_text.h"
+#include "tools/speech/text/mood_marks.h"
 
 namespace animeme::speech {
 
@@ -23,9 +24,11 @@ Result<Spoken> speak(const SpokenOptions& options, const std::string& written,
     Result<TimedSpeech> timed = run_voice_command(text, voice_command(options), log);
     if (!timed) return timed.error();
     voice::Speech& speech = timed->speech;
-    return Spoken{std::move(speech.script),    std::move(speech.audio),
+    Spoken spoken{std::move(speech.script),    std::move(speech.audio),
                   std::move(speech.voice),     timed->times,
                   std::move(timed->alignment), {}};
+    spoken.moods = std::move(speech.moods);
+    return spoken;
   }
   voice::VoiceOptions settings;
   settings.language = options.language;
@@ -39,6 +42,7 @@ Result<Spoken> speak(const SpokenOptions& options, const std::string& written,
       std::move(speech->script), std::move(speech->audio), speech->voice, TimesFrom::voice, {}, {}};
   spoken.languages = std::move(speech->languages);
   spoken.marks = std::move(speech->marks);
+  spoken.moods = std::move(speech->moods);
   spoken.warnings = std::move(speech->warnings);
   return spoken;
 }
@@ -72,15 +76,15 @@ Result<Spoken> align_voice(const SpokenOptions& options, const tools::Log& log) 
   voice::AlignOptions settings;
   settings.language = options.language;
   settings.least_confidence = options.least_confidence;
-  Result<voice::Alignment> aligned = align_file(
-      options.audio, text_to_say(options.transcript, options.script_reading.speak_marks, log),
-      settings, log);
+  const std::string text = text_to_say(options.transcript, options.script_reading.speak_marks, log);
+  Result<voice::Alignment> aligned = align_file(options.audio, text, settings, log);
   if (!aligned) return aligned.error();
   Result<media::Pcm> audio = read_voice(options.audio);  // its damage is reported already
   if (!audio) return audio.error();
   dam::Script script = std::exchange(aligned->script, {});
   Spoken spoken{std::move(script),    std::move(*audio),   {},
                 TimesFrom::alignment, std::move(*aligned), {}};
+  spoken.moods = text::find_moods(text, spoken.script);
   spoken.recording = again(options.audio);
   return spoken;
 }

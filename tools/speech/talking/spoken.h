@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "dam/model/model.h"
+#include "dam/script/mood.h"
 #include "dam/script/script.h"
 #include "dam/signal/signal.h"
 #include "dam/speaking/synthesise.h"
@@ -56,6 +57,7 @@ struct Spoken {
   std::optional<voice::Recognition> heard;
   std::vector<voice::SpokenLanguage> languages;  ///< of synthetic speech by espeak-ng
   std::vector<voice::SpeechMark> marks;          ///< of SSML
+  std::vector<dam::MoodSpan> moods;              ///< of SSML, emoji and exclamation marks
   std::vector<std::string> warnings;             ///< about skipped or spelled words
   /// The file that `audio` is one channel of; empty: synthetic speech, or the file cannot be read
   /// again (a pipe).

@@ -16,8 +16,9 @@ namespace {
 constexpr double kFade = 0.25;  // seconds
 // A mouth that is cut off: seconds, at most where there is far to go; share of the speed of speech.
 constexpr double kClosing = 0.1, kLongestClosing = 0.16, kOfSpeed = 0.75;
-constexpr double kIdleSeconds = 20;  // of one piece
-constexpr double kHistory = 1;       // seconds of a line that may still bear on what follows
+constexpr double kIdleSeconds = 20;                  // of one piece
+constexpr double kMoodSpeech = 10, kMoodSound = 25;  // shares of a mood's mouth, at most, a second
+constexpr double kHistory = 1;  // seconds of a line that may still bear on what follows
 
 dam::Script silence() {
   dam::Script script;
@@ -106,6 +107,17 @@ dam::Script joint(const dam::Script& before, double cut, const dam::Script& afte
   return script;
 }
 
+double nearer(double shown, double wanted, double most) {
+  return shown + std::clamp(wanted - shown, -most, most);
+}
+
+double end_of_words(const dam::Script& script) {
+  double end = 0;
+  for (const dam::Phone& phone : script.phones)
+    if (phone.label != dam::kSilence) end = phone.end;
+  return end;
+}
+
 bool mouth_differs(const fap::Frame& a, const fap::Frame& b, const fap::Mask& mouth) {
   for (std::size_t fap = fap::kFirstLowLevel; fap < mouth.size(); ++fap) {
     if (mouth[fap] && a.value[fap] != b.value[fap]) return true;
@@ -129,6 +141,11 @@ Result<TalkingFace> TalkingFace::open(const dam::Model& model, const FaceOptions
   }
   if (auto ok = face.begin(silence(), false); !ok) return ok.error();
   face.mask_ = face.clip_.frames.front().mask;
+  if (options.moods) {
+    face.mask_ |= dam::mood_faps();
+    face.mood_ = options.mood;
+    face.moods_ = dam::MoodBlend(options.mood);
+  }
   return face;
 }
 
@@ -171,6 +188,7 @@ Result<void> TalkingFace::begin(const dam::Script& script, bool closing) {
   lead_over(shown_, mouth, signal->names.size(), *signal, 0);
   if (auto ok = show(std::move(*signal), 0); !ok) return ok;
   script_ = script;
+  mouth_ = dam::MoodMouth(script_);
   return {};
 }
 
@@ -191,9 +209,44 @@ Line TalkingFace::line_from(std::size_t first, const fap::Frame& before) const {
   return line;
 }
 
-Result<Line> TalkingFace::say(const dam::Script& script) {
+// Moods of a line that begins `start` seconds after the next frame.
+void TalkingFace::plan_moods(const dam::Script& script, double start, const LineMoods& moods) {
+  if (!options_.moods) return;
+  const double begin = now() + start;
+  const dam::MoodTrack track(moods.mood.value_or(mood_), moods.spans);
+  for (const dam::MoodTrack::Part& part : track.parts()) {
+    const double at = begin + std::max(part.start, 0.0) - dam::kMoodLead;
+    moods_.change(std::max(at, now()), part.mood);
+  }
+  moods_.change(begin + std::max(end_of_words(script), 0.0), mood_);
+}
+
+void TalkingFace::set_mood(const dam::Mood& mood) {
+  if (!options_.moods) return;
+  mood_ = mood;
+  moods_.change(now(), mood);
+}
+
+// The shares change no faster than lips do, also where one piece follows another.
+void TalkingFace::show_mood(double in_piece, fap::Frame& frame) {
+  const double seconds = signal_.rate.seconds(1);
+  const dam::MoodMouth::Shares wanted = mouth_.at(in_piece);
+  shares_.speech = nearer(shares_.speech, wanted.speech, kMoodSpeech * seconds);
+  shares_.round = nearer(shares_.round, wanted.round, kMoodSound * seconds);
+  shares_.teeth = nearer(shares_.teeth, wanted.teeth, kMoodSound * seconds);
+  shares_.bite = nearer(shares_.bite, wanted.bite, kMoodSound * seconds);
+  shares_.shut = nearer(shares_.shut, wanted.shut, kMoodSound * seconds);
+  frame.mask = mask_;
+  moods_.forget(now());
+  if (moods_.neutral()) return;
+  const dam::MoodPose pose = moods_.at(now());
+  if (!pose.neutral()) dam::add_mood(pose, shares_, frame);
+}
+
+Result<Line> TalkingFace::say(const dam::Script& script, const LineMoods& moods) {
   const fap::Frame before = at_ == 0 ? clip_.frames.front() : clip_.frames[at_ - 1];
   if (auto ok = begin(script, false); !ok) return ok.error();
+  plan_moods(script, 0, moods);
   speaking_ = true;
   return line_from(0, before);
 }
@@ -201,14 +254,17 @@ Result<Line> TalkingFace::say(const dam::Script& script) {
 Result<void> TalkingFace::cut() {
   if (!speaking()) return {};
   if (auto ok = begin(silence(), true); !ok) return ok;
+  moods_.change(now(), mood_);
   speaking_ = false;
   return {};
 }
 
-Result<Line> TalkingFace::join(const dam::Script& script, double start) {
+Result<Line> TalkingFace::join(const dam::Script& script, double start, const LineMoods& moods) {
   if (!(start >= 0)) return make_error(Code::invalid_argument, "a line begins in the past");
   if (!speaking()) {
-    return say(joint({}, 0, script, start));
+    LineMoods later = moods;
+    for (dam::MoodSpan& span : later.spans) span.start += start, span.end += start;
+    return say(joint({}, 0, script, start), later);
   }
   const fap::Rate rate = signal_.rate;
   const auto kept = std::size_t(std::ceil(kHistory * rate.frames_per_second()));
@@ -239,6 +295,8 @@ Result<Line> TalkingFace::join(const dam::Script& script, double start) {
   const fap::Frame before = at_ == 0 ? clip_.frames.front() : clip_.frames[at_ - 1];
   if (auto ok = show(std::move(*signal), at); !ok) return ok.error();
   script_ = both;
+  mouth_ = dam::MoodMouth(script_);
+  plan_moods(script, start, moods);
   const auto first = std::size_t(start * rate.frames_per_second());
   return line_from(std::min(at + first, clip_.frames.size() - 1), before);
 }
@@ -249,7 +307,8 @@ Result<fap::Frame> TalkingFace::next() {
     speaking_ = false;
   }
   shown_ = row(signal_, at_);
-  fap::Frame frame = clip_.frames[at_++];
+  fap::Frame frame = clip_.frames[at_];
+  show_mood(signal_.time(at_++), frame);
   frame.number = number_++;
   return frame;
 }

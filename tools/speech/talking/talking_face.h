@@ -14,11 +14,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "dam/model/model.h"
+#include "dam/script/mood.h"
 #include "dam/script/script.h"
 #include "dam/signal/signal.h"
+#include "dam/speaking/moods.h"
 #include "dam/speaking/synthesise.h"
 #include "fap/frame.h"
 #include "fap/result.h"
@@ -30,6 +33,14 @@ struct FaceOptions {
   dam::SynthesisOptions synthesis;  ///< `frames` and `tail` are not used
   bool idle_motion = false;         ///< blinks, brows, head: see dam/speaking/idle_motion.h
   std::uint64_t seed = 1;           ///< of the idle motion
+  dam::Mood mood;                   ///< at the beginning
+  bool moods = true;                ///< frames have the FAPs that moods move; else it has none
+};
+
+/// The moods of a line.
+struct LineMoods {
+  std::optional<dam::Mood> mood;     ///< of the whole line; nullopt: that of the face
+  std::vector<dam::MoodSpan> spans;  ///< of its parts, in seconds of its script
 };
 
 /// Result of say().
@@ -55,13 +66,15 @@ class TalkingFace {
   /// Whether a line has remaining frames.
   bool speaking() const { return speaking_ && at_ < clip_.frames.size(); }
   /// Begins a line with the next frame; the rest of the previous line is dropped.
-  /// Errors: those of dam::synthesise() and dam::add_idle_motion().
-  Result<Line> say(const dam::Script& script);
+  /// Its moods end with it. Errors: those of dam::synthesise() and dam::add_idle_motion().
+  Result<Line> say(const dam::Script& script, const LineMoods& moods = {});
   /// Extends the current line: `script` begins `start` seconds after the next frame (0 or more; not
   /// before the end of the current speech) and is coarticulated with the rest of that, which is
   /// recomputed. Without current speech it begins a new line. Errors: as say(); invalid_argument
   /// (`start` is negative or NaN).
-  Result<Line> join(const dam::Script& script, double start);
+  Result<Line> join(const dam::Script& script, double start, const LineMoods& moods = {});
+  /// The mood from the next frame on, and between lines. Moods of a line that is spoken end.
+  void set_mood(const dam::Mood& mood);
   /// Interrupts speech: the mouth begins to close evenly with the next frame and is at rest 0.1 s
   /// after the previous frame, or up to 0.16 s if it would otherwise move faster than in speech.
   /// Errors: as say().
@@ -79,6 +92,9 @@ class TalkingFace {
   Result<dam::Signal> synthesise(const dam::Script& script) const;
   Result<void> show(dam::Signal signal, std::size_t at);
   Line line_from(std::size_t first, const fap::Frame& before) const;
+  double now() const { return signal_.rate.seconds(double(number_)); }
+  void plan_moods(const dam::Script& script, double start, const LineMoods& moods);
+  void show_mood(double in_piece, fap::Frame& frame);
 
   const dam::Model* model_;
   FaceOptions options_;
@@ -92,7 +108,11 @@ class TalkingFace {
   std::int64_t number_ = 0;
   std::uint64_t pieces_ = 0;
   bool speaking_ = false;
-  std::int64_t closed_ = 0;  // number of the frame after the first one at rest behind cut()
+  dam::Mood mood_;                 // between lines
+  dam::MoodBlend moods_;           // in seconds from frame 0
+  dam::MoodMouth mouth_;           // of script_
+  dam::MoodMouth::Shares shares_;  // as shown last
+  std::int64_t closed_ = 0;        // number of the frame after the first one at rest behind cut()
 };
 
 }  // namespace animeme::speech

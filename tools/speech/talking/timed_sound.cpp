@@ -3,6 +3,8 @@
 #include <utility>
 
 #include "tools/formats/media/audio.h"
+#include "tools/speech/text/mood_marks.h"
+#include "tools/speech/text/ssml.h"
 
 namespace animeme::speech {
 
@@ -91,6 +93,9 @@ Result<TimedSpeech> time_sound(TimedSound sound, const ScriptInput& input, const
   }
   cover(timed->speech.script, sound.audio.samples.empty() ? 0 : sound.audio.duration());
   timed->speech.audio = std::move(sound.audio);
+  if (!text::is_ssml(sound.text)) {
+    timed->speech.moods = text::find_moods(sound.text, timed->speech.script);
+  }
   return std::move(*timed);
 }
 

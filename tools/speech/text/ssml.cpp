@@ -3,6 +3,7 @@
 #include <expat.h>
 
 #include <algorithm>
+#include <charconv>
 #include <map>
 #include <memory>
 #include <set>
@@ -14,6 +15,25 @@
 
 namespace animeme::text {
 namespace {
+
+// What emphasis does to the intensity of a mood.
+double emphasised(std::string_view level) {
+  if (level == "strong") return 1.3;
+  if (level == "reduced") return 0.7;
+  return level == "none" ? 1 : 1.15;
+}
+
+// Azure's styledegree, 0.01 to 2, and Amazon's words for the same.
+std::optional<double> degree_of(std::string_view text) {
+  if (text.empty() || text == "medium") return 1;
+  if (text == "low") return 0.6;
+  if (text == "high") return 1.4;
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !(value >= 0))
+    return std::nullopt;
+  return std::min(value, 2.0);
+}
 
 constexpr double kSentencePause = 0.2, kParagraphPause = 0.5;  // seconds
 
@@ -142,6 +162,13 @@ class SsmlReader {
     } else if (name == "emphasis") {
       const std::string level = value(attributes, "level");
       if (!emphasise(level, item.manner)) warn("<emphasis level=\"" + level + "\"> is not known");
+      item.mood_gain = std::min(item.mood_gain * emphasised(level), 2.0);
+    } else if (name.ends_with(":express-as")) {
+      read_mood(name, attributes, "style", "styledegree", item);
+    } else if (name == "amazon:emotion") {
+      read_mood(name, attributes, "name", "intensity", item);
+    } else if (name == "google:style") {
+      read_mood(name, attributes, "name", "", item);
     } else if (name == "voice") {
       read_voice(attributes, item.manner);
     } else if (name == "sub") {
@@ -178,6 +205,20 @@ class SsmlReader {
                                             : break_strength(strength);
     if (!seconds) warn("<break> with \"" + (time.empty() ? strength : time) + "\" is not known");
     if (seconds && *seconds > 0) pause(*seconds);
+  }
+
+  void read_mood(std::string_view element, const Attributes& attributes, std::string_view style,
+                 std::string_view degree, Item& item) {
+    const std::string name = value(attributes, style), number = value(attributes, degree);
+    const std::string what = "<" + std::string(element) + " ";
+    const auto factor = degree_of(number);
+    if (!factor) warn(what + std::string(degree) + "=\"" + number + "\"> is not known");
+    auto mood = dam::make_mood(name, factor.value_or(1));
+    if (mood) {
+      item.mood = std::move(*mood);
+    } else {
+      warn(what + std::string(style) + "=\"" + name + "\"> is no mood that the face has");
+    }
   }
 
   void read_voice(const Attributes& attributes, Manner& manner) {

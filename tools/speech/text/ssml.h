@@ -7,10 +7,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "dam/script/mood.h"
 #include "fap/result.h"
 
 namespace animeme::text {
@@ -48,8 +50,10 @@ struct Item {
   std::string format;  ///< of a date: "dmy"
   /// prosody
   Manner manner;
-  double seconds = 0;  ///< of a pause, 0..10
-  std::string name;    ///< of a mark
+  std::optional<dam::Mood> mood;  ///< of mstts:express-as and the like
+  double mood_gain = 1;           ///< of emphasis: multiplies the intensity of any mood
+  double seconds = 0;             ///< of a pause, 0..10
+  std::string name;               ///< of a mark
 };
 
 /// Result of read_ssml().
@@ -66,8 +70,10 @@ inline constexpr int kMostDepth = 64;
 
 /// Reads a document in UTF-8. Supported: speak, p, s, break, prosody (rate, pitch, range, volume),
 /// emphasis, voice (name, gender, xml:lang), lang, mark, sub, phoneme (IPA), say-as (characters,
-/// digits, telephone, ordinal, cardinal, date, time ...), w and token; xml:lang everywhere. Other
-/// elements are reported in the warnings and their text is spoken, including the text of audio.
+/// digits, telephone, ordinal, cardinal, date, time ...), w and token; xml:lang everywhere. For the
+/// face: mstts:express-as (style, styledegree: names of dam::read_mood()), amazon:emotion (name,
+/// intensity), google:style (name); emphasis changes the intensity of a mood, too. Other elements
+/// are reported in the warnings and their text is spoken, including the text of audio.
 ///
 /// Errors: syntax with line and column (XML that is not well formed, a root other than speak,
 /// entities that the document declares, deeper than kMostDepth), unsupported (built without expat).

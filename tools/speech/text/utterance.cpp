@@ -139,7 +139,12 @@ class Maker {
         out_.marks.push_back(item.name);
       }
       if (item.kind != ItemKind::text) continue;
+      if (item.mood || item.mood_gain != 1) {
+        out_.moods.push_back(
+            {{std::uint32_t(first), std::uint32_t(at)}, item.mood, item.mood_gain});
+      }
       SpokenText said = as_written(item.text, first);
+      blank_smileys(said);
       if (!item.alias.empty() && said.size() > 0) said = say_instead(said, utf8(item.alias));
       if (auto done = add_text(item, said); !done) return done;
     }
@@ -357,8 +362,11 @@ Result<Utterance> make_utterance(std::string_view text, Speakers speakers, const
   } else {
     out.source = code_points(text);
     const bool only_pictures = !has_words(out.source);
-    if (auto done = maker.plain(as_written(out.source), only_pictures); !done) return done.error();
+    SpokenText said = as_written(out.source);
+    blank_smileys(said);
+    if (auto done = maker.plain(said, only_pictures); !done) return done.error();
   }
+  for (MoodPlace& place : find_moods(out.source)) out.moods.push_back(std::move(place));
   const auto is_ascii = [](char32_t code) { return code < 0x80; };
   if (!unicode_here() && !std::all_of(out.source.begin(), out.source.end(), is_ascii)) {
     out.warnings.push_back(late_text().error().message + "; the text goes to the voice as it is");

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fap/result.h"
+#include "tools/speech/text/mood_marks.h"
 #include "tools/speech/text/passages.h"
 #include "tools/speech/text/spoken_text.h"
 
@@ -30,6 +31,7 @@ struct Utterance {
   /// the voices
   std::vector<Speaker> speakers;
   std::vector<Stretch> stretches;     ///< ascending
+  std::vector<MoodPlace> moods;       ///< in `source`; the later ones inside of the earlier
   std::vector<std::string> marks;     ///< mark number N of the input is called "N"
   std::vector<std::string> warnings;  ///< sentences for the user
 };

@@ -109,6 +109,7 @@ Result<Speech> speak_text(std::string_view text, const VoiceOptions& options) {
   if (!has_sound(speech.script)) return nothing_to_say(speech.voice);
   speech.languages = find_languages(raw, rate, *utterance);
   speech.marks = find_marks(raw, rate, *utterance);
+  speech.moods = find_moods(raw, rate, *utterance, speech.script);
   std::string letters = warn_of_letters(raw, *utterance, speech.languages);
   if (!letters.empty()) speech.warnings.push_back(std::move(letters));
   std::string vowels;

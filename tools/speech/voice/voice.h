@@ -16,6 +16,7 @@
 #include <string_view>
 #include <vector>
 
+#include "dam/script/mood.h"
 #include "dam/script/script.h"
 #include "fap/result.h"
 #include "tools/formats/media/pcm.h"
@@ -68,6 +69,7 @@ struct Speech {
   std::string voice;   ///< name of the voice, or of the first one: "English (America)"
   std::vector<SpokenLanguage> languages;  ///< ascending; at least one
   std::vector<SpeechMark> marks;          ///< of SSML, ascending
+  std::vector<dam::MoodSpan> moods;       ///< of SSML, emoji and exclamation marks
   std::vector<std::string> warnings;  ///< about skipped or spelled words, sentences for the user
 };
 

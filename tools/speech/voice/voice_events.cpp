@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -214,6 +215,27 @@ dam::Script make_voice_script(const RawSpeech& raw, int sample_rate,
   entries.resize(script.phones.size(), kNoWritten);
   name_words(entries, written, script.phones);
   return script;
+}
+
+std::vector<dam::MoodSpan> find_moods(const RawSpeech& raw, int sample_rate,
+                                      const text::Utterance& utterance, const dam::Script& script) {
+  if (utterance.moods.empty()) return {};
+  std::vector<text::TimedPlace> words;
+  std::optional<text::Place> word;  // whose first sound has not come yet
+  for (const VoiceEvent& event : raw.events) {
+    if (event.kind == EventKind::word && event.text_length > 0) {
+      const text::Place place = place_of(event, utterance);
+      if (place.last > place.first) word = place;
+    } else if (event.kind == EventKind::phoneme && word && !event.ipa.empty() &&
+               !event.ipa.starts_with('_') && !event.ipa.starts_with('(')) {
+      words.push_back({word->first, double(event.sample) / sample_rate});
+      word.reset();
+    }
+  }
+  double end = 0;
+  for (const dam::Phone& phone : script.phones)
+    if (phone.label != dam::kSilence) end = phone.end;
+  return text::mood_spans(utterance.moods, words, end);
 }
 
 }  // namespace animeme::voice

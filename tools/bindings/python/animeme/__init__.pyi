@@ -257,6 +257,7 @@ class Model:
         speed: int = 175,
         pitch: int = 50,
         tts: str = "",
+        mood: str = "neutral",
     ) -> Speech: ...
 
 class Speech:
