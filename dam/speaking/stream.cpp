@@ -9,6 +9,7 @@
 #include "dam/script/phones.h"
 #include "dam/signal/mouth_opening.h"
 #include "dam/speaking/frames_internal.h"
+#include "dam/speaking/tongue.h"
 
 namespace animeme::dam {
 namespace {
@@ -55,6 +56,7 @@ double exact_look_ahead(const Model& model) { return reach_of(model) + kClosureR
 SpeechStream::SpeechStream(const Model& model, const StreamOptions& options)
     : model_(&model), options_(options), reach_(reach_of(model)) {
   if (articulation_of(model, options.synthesis) > 0) reach_ = std::max(reach_, kOpeningReach);
+  if (options.synthesis.tongue) reach_ = std::max(reach_, kTongueReach);
 }
 
 Result<void> SpeechStream::push(const Phone& phone) {

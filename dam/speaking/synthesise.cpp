@@ -10,6 +10,7 @@
 #include "dam/signal/mouth_opening.h"
 #include "dam/signal/rounding.h"
 #include "dam/speaking/frames_internal.h"
+#include "dam/speaking/tongue.h"
 
 namespace animeme::dam {
 namespace {
@@ -157,6 +158,7 @@ Result<Signal> synthesise_frames(const Model& model, const Script& script,
         LipRounding(script), articulation, [&](double time) { return options.style * gate(time); },
         signal);
   }
+  if (options.tongue) add_tongue(signal, script);
   return signal;
 }
 

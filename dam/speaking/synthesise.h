@@ -33,6 +33,9 @@ struct SynthesisOptions {
   /// (dam/signal/mouth_opening.h). The gap between the lips and their corners stay as learned. 0:
   /// as learned; 1: by the rules; 0..kMostArticulation; nullopt: Model::articulation.
   std::optional<double> articulation = 0;
+  /// The tongue by rule (dam/speaking/tongue.h): channels for FAP 44 to 47 behind those of the
+  /// model, if that has jaw or lips as FAPs and no tongue.
+  bool tongue = false;
   bool rest_at_ends = true;      ///< first and last frame are the resting mouth
   double context_weight = 1000;  ///< w_c of Eq. 10, >= 0
   double smoothness_weight = 1;  ///< w_s of Eq. 10, >= 0

@@ -18,7 +18,7 @@ Result<HeadSettings> read(const char* text) { return serve::read_settings(*Json:
 TEST(HeadSettings, EveryMemberIsReadAndWritten) {
   const char* text =
       R"({"model":"m","lang":"de+f2","speed":150,"pitch":70,"rate":"29.97","style":1.2,)"
-      R"("sharpness":2.0,"articulate":0.5,"idle_motion":false,"mood":"anger:0.5","seed":9,"intra_seconds":2.0,"quant":3,)"
+      R"("sharpness":2.0,"articulate":0.5,"idle_motion":false,"tongue":false,"mood":"anger:0.5","seed":9,"intra_seconds":2.0,"quant":3,)"
       R"("sound":false,"audio_codec":"aac","audio_bitrate":64000,"audio_effort":10})";
   const Result<HeadSettings> settings = read(text);
   ASSERT_TRUE(settings) << settings.error().message;

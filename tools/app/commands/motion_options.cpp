@@ -21,4 +21,9 @@ void add_motion_options(OptionTable& cli, dam::SynthesisOptions& options) {
       ->between(0.0, dam::kMostArticulation);
 }
 
+void add_tongue_option(OptionTable& cli, bool& tongue) {
+  cli.add("!--no-tongue", tongue,
+          "Leave the tongue at rest, which a rule moves for models that do not have it");
+}
+
 }  // namespace animeme::tools

@@ -12,4 +12,7 @@ struct OptionTable;
 /// that of the model (Model::articulation).
 void add_motion_options(OptionTable& cli, dam::SynthesisOptions& options);
 
+/// Adds --no-tongue, which clears `tongue`.
+void add_tongue_option(OptionTable& cli, bool& tongue);
+
 }  // namespace animeme::tools

@@ -8,6 +8,7 @@
 #include "dam/speaking/idle_motion.h"
 #include "dam/speaking/moods.h"
 #include "dam/speaking/synthesise.h"
+#include "dam/speaking/tongue.h"
 #include "dam/speaking/viseme_track.h"
 #include "fap/rate_text.h"
 #include "tools/app/commands/common.h"
@@ -48,6 +49,7 @@ struct SpeakOptions {
   bool exact = false;
   std::string visemes, expressions;  // where FAP 1 and 2 go
   std::string mood;
+  bool tongue = true;
   bool no_words = false;
   bool subtitles = false;
   bool language_told = false;
@@ -277,6 +279,7 @@ Result<int> write_output(const SpeakOptions& options, dam::Signal signal,
   // Curves belong to the model's rig, and players of visemes have no brows.
   const bool curves = extension_of(options.output) == ".csv" && !is_arkit_output(options.output);
   const bool plain = curves || options.visemes == "instead";
+  if (options.tongue && !plain) dam::add_tongue(signal, spoken.script);
   if (options.idle_motion.value_or(!plain)) {
     // Without being asked: where the names of a rig are not known, writing will say what it needs.
     auto added = dam::add_idle_motion(signal, spoken.script, {1, options.seed});
@@ -456,6 +459,7 @@ void add_options(OptionTable& cli, SpeakOptions& options) {
   cli.add("--idle-motion,.--life,!--no-idle-motion,!.--no-life", options.idle_motion,
           "Add blinks, and small motion of brows and head that follows the stresses; "
           "default: yes, but not for curves of the model (.csv)");
+  add_tongue_option(cli, options.tongue);
   add_mood_option(cli, options.mood);
   cli.add(
          "--expressions", options.expressions,
@@ -489,7 +493,7 @@ void add_options(OptionTable& cli, SpeakOptions& options) {
   cli.show_in_help_all(
       "Details of coding and alignment",
       "--rms --kbps --intra-seconds --audio-codec --audio-bitrate --exact --min-confidence "
-      "--visemes --expressions");
+      "--no-tongue --visemes --expressions");
 }
 
 }  // namespace

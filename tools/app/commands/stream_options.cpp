@@ -52,6 +52,8 @@ void add_source_options(OptionTable& cli, StreamOptions& options) {
       ->frame_rate()
       ->show_default();
   add_motion_options(cli, options.program.motion);
+  options.program.motion.tongue = true;
+  add_tongue_option(cli, options.program.motion.tongue);
   add_mood_option(cli, options.mood);
   cli.add("--idle-motion,.--life", options.program.idle_motion,
           "Add blinks, and small motion of brows and head");

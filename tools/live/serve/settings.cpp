@@ -88,6 +88,7 @@ HeadSettings::HeadSettings() {
   voice.lead_silence = 0.1;  // time to open the mouth, as for `stream --say`
   voice.tail_silence = 0.3;
   motion.articulation = std::nullopt;
+  motion.tongue = true;
   audio = {media::AudioCodec::opus, 48000, 5};
 }
 
@@ -123,6 +124,7 @@ Result<HeadSettings> read_settings(const Json& json, HeadSettings settings) {
     members.number("articulate", 0, dam::kMostArticulation, articulation);
   if (articulation >= 0) settings.motion.articulation = articulation;
   members.flag("idle_motion", settings.idle_motion);
+  members.flag("tongue", settings.motion.tongue);
   std::string mood;
   if (members.text("mood", mood)) {
     const Result<dam::Mood> read = dam::read_mood(mood);
@@ -158,6 +160,7 @@ Json settings_json(const HeadSettings& settings) {
           {"articulate",
            settings.motion.articulation ? Json(*settings.motion.articulation) : Json(nullptr)},
           {"idle_motion", settings.idle_motion},
+          {"tongue", settings.motion.tongue},
           {"mood", dam::mood_text(settings.mood)},
           {"seed", settings.seed},
           {"intra_seconds", settings.intra_seconds},

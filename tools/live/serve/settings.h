@@ -22,7 +22,7 @@ namespace animeme::serve {
 struct HeadSettings {
   std::string model;             ///< "model": a name known to the server; empty: built-in
   voice::VoiceOptions voice;     ///< "lang", "speed" (words a minute), "pitch"
-  dam::SynthesisOptions motion;  ///< "rate", "style", "sharpness", "articulate"
+  dam::SynthesisOptions motion;  ///< "rate", "style", "sharpness", "articulate", "tongue"
   bool idle_motion = true;       ///< "idle_motion": blinks and small motion of brows and head
   dam::Mood mood;                ///< "mood": a name of dam::read_mood(), also "joy:0.6"
   std::uint64_t seed = 1;        ///< "seed" of idle motion, 0..1e9
@@ -32,7 +32,7 @@ struct HeadSettings {
   media::AudioSettings audio;    ///< "audio_codec", "audio_bitrate", "audio_effort" (Opus)
 
   HeadSettings();  ///< Opus with an effort of 5 at 48000 bits a second, the articulation of the
-                   ///< model
+                   ///< model, a tongue
 };
 
 /// Applies `json`, an object, to `settings`. Errors: invalid_argument (an unknown member or an

@@ -143,7 +143,11 @@ Result<std::unique_ptr<LiveVoice>> LiveVoice::open(const dam::Model& model,
                                                    std::unique_ptr<SoundFeed> pipe, int rate,
                                                    const LiveVoiceOptions& options) {
   if (auto ok = check(options); !ok) return ok.error();
-  Result<TalkingFace> resting = TalkingFace::open(model, {options.synthesis, false, 1});
+  FaceOptions still;  // what VoiceDrivenFace moves, and nothing else
+  still.synthesis = options.synthesis;
+  still.synthesis.tongue = false;
+  still.moods = false;
+  Result<TalkingFace> resting = TalkingFace::open(model, still);
   if (!resting) return resting.error();
   VoiceDrivenFaceOptions following{options.synthesis, options.language,
                                    options.delay - kJitter - kGrain};

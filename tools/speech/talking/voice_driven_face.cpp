@@ -24,6 +24,7 @@ class Follower : public VoiceDrivenFace {
   Follower(const dam::Model& model, int sample_rate, const VoiceDrivenFaceOptions& options,
            std::unique_ptr<voice::SoundListener> listener)
       : model_(&model), rate_(sample_rate), options_(options), listener_(std::move(listener)) {
+    options_.synthesis.tongue = false;  // phones that are only probable do not show on it
     for (const dam::Control& control : model.controls) names_.push_back(control.name);
   }
 

@@ -26,7 +26,7 @@ namespace animeme::speech {
 
 /// Options for following a voice.
 struct VoiceDrivenFaceOptions {
-  dam::SynthesisOptions synthesis;  ///< `frames`, `tail` and `rest_at_ends` are not used
+  dam::SynthesisOptions synthesis;  ///< `frames`, `tail`, `rest_at_ends` and `tongue` are not used
   std::string language = "en";      ///< of the voice, see voice::ListenOptions
   double delay = 0.25;              ///< seconds of sound beyond a frame, 0.08..2
 };
