@@ -14,7 +14,7 @@ namespace animeme::dam {
 namespace {
 
 constexpr double kTongueComes = 0.09, kTongueGoes = 0.08;  // seconds
-constexpr double kTeethGap = 60;   // FAP units beyond kClosedGap: the tongue may pass the teeth
+constexpr double kTeethGap = 60;    // FAP units beyond kClosedGap: the tongue may pass the teeth
 constexpr double kCurled = 30000;   // 1e-5 rad, of R and ER
 constexpr double kRollStep = 8192;  // likewise
 constexpr double kContactWeight = 3, kHissWeight = 2.5, kGlideWeight = 1.5;  // of a vowel

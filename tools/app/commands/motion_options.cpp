@@ -22,8 +22,9 @@ void add_motion_options(OptionTable& cli, dam::SynthesisOptions& options) {
 }
 
 void add_tongue_option(OptionTable& cli, bool& tongue) {
-  cli.add("!--no-tongue", tongue,
-          "Leave the tongue at rest, which a rule moves for models that do not have it");
+  cli.add(
+      "!--no-tongue", tongue,
+      "Leave the tongue at rest, as --quant 0 does; else a rule moves it for models without it");
 }
 
 }  // namespace animeme::tools

@@ -279,7 +279,8 @@ Result<int> write_output(const SpeakOptions& options, dam::Signal signal,
   // Curves belong to the model's rig, and players of visemes have no brows.
   const bool curves = extension_of(options.output) == ".csv" && !is_arkit_output(options.output);
   const bool plain = curves || options.visemes == "instead";
-  if (options.tongue && !plain) dam::add_tongue(signal, spoken.script);
+  // A lossless stream cannot hold a tongue that curls: FAP 47 goes far beyond 1860 units.
+  if (options.tongue && !plain && options.stream.quant > 0) dam::add_tongue(signal, spoken.script);
   if (options.idle_motion.value_or(!plain)) {
     // Without being asked: where the names of a rig are not known, writing will say what it needs.
     auto added = dam::add_idle_motion(signal, spoken.script, {1, options.seed});

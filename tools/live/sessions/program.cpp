@@ -22,6 +22,7 @@ constexpr double kLiveTail = 0.3;  // after it, to close it
 dam::SynthesisOptions synthesis_of(const ProgramOptions& options, fap::Rate rate) {
   dam::SynthesisOptions settings = options.motion;
   settings.rate = rate;
+  settings.tongue = settings.tongue && options.coding.quant > 0;  // else FAP 47 does not fit
   return settings;
 }
 
