@@ -137,7 +137,70 @@ TEST(StrangeCaptures, DropFrameTimecodesHaveNoGaps) {
                             .replace(3, 5, format("%02d:%02d", label / 1800, label / 30 % 60));
                       },
                       1600),
-                  30, 1600);
+                  30000 / 1001.0, 1600);
+  // Thirty seconds behind the start, a picture is 0.03 s later than its label.
+  const auto take = imported(rows_of_timecodes(
+      [](int i) { return format("00:01:%02d;%02d", (i + 2) / 60, (i + 2) % 60); }, 1800));
+  ASSERT_TRUE(take) << take.error().describe();
+  EXPECT_EQ(take->clip.rate, (fap::Rate{60000, 1001}));
+}
+
+// Whichever rate: the frame and milliseconds of the second, and milliseconds without zeros.
+TEST(StrangeCaptures, TimecodesWithMillisecondsOfAllRates) {
+  for (const int rate : {24, 25, 30, 48, 50, 60, 100, 120}) {
+    const auto text_of = [&](auto last_field) {
+      return rows_of_timecodes([&](int i) {
+        const double seconds = double(i) / rate + 1e-9;
+        return format("03:00:%02d:", int(seconds)) + last_field(seconds - std::floor(seconds));
+      });
+    };
+    expect_all_rows(text_of([&](double part) {
+                      return format("%02d.%03d", int(part * rate), int(part * 1000));
+                    }),
+                    rate);
+    expect_all_rows(text_of([](double part) { return format("%d", int(part * 1000)); }), rate);
+  }
+}
+
+// The labels of these have three digits, too.
+TEST(StrangeCaptures, TimecodesOfFastCameras) {
+  for (const int rate : {120, 200, 240}) {
+    expect_all_rows(rows_of_timecodes([&](int i) {
+                      return format("00:00:%02d:%03d", (i + 7) / rate, (i + 7) % rate);
+                    }),
+                    rate);
+  }
+}
+
+TEST(StrangeCaptures, FormsOfTimes) {
+  const struct {
+    const char* name;
+    std::function<std::string(double seconds)> time;
+  } forms[] = {
+      {"Time (s)", [](double s) { return format("%.4f", s); }},
+      {"time [ms]", [](double s) { return format("%.2f", s * 1000); }},
+      {"timestampMs", [](double s) { return format("%.0f", 1.7e12 + s * 1000); }},
+      {"time_ns", [](double s) { return format("%.0f", s * 1e9); }},
+      {"t", [](double s) { return format("%.4f", s); }},
+      {"elapsed", [](double s) { return format("%.4fs", s); }},
+      {"time", [](double s) { return format("%.1f ms", s * 1000); }},
+      {"time", [](double s) { return format("59:%07.4f", 50 + s); }},
+      {"time",
+       [](double s) { return format("\"09:00:%02d,%03d\"", int(s), int(s * 1000) % 1000); }},
+      {"Timestamp", [](double s) { return format("2024-02-29 12:00:%07.4f", s); }},
+      {"Timestamp", [](double s) { return format("2024-02-29T12:00:%07.4f+02:00", s); }},
+      {"date_time", [](double s) {  // midnight passes, and the year
+         return format(s < 1 ? "2023-12-31T23:59:%07.4fZ" : "2024-01-01T00:00:%07.4fZ",
+                       s < 1 ? 59 + s : s - 1);
+       }}};
+  for (const auto& form : forms) {
+    std::string text = std::string(form.name) + ",JawOpen,MouthClose\n";
+    for (int i = 0; i < 90; ++i) text += form.time(i / 30.0 + 1e-9) + format(",%g,0\n", i / 100.0);
+    const auto take = imported(text);
+    ASSERT_TRUE(take) << form.name << take.error().describe();
+    EXPECT_EQ(take->clip.frames.size(), 90u) << text.substr(0, 80);
+    EXPECT_EQ(take->clip.rate, (fap::Rate{30, 1})) << text.substr(0, 80);
+  }
 }
 
 // An iPhone that records 59.94 pictures a second under a timecode of 60.
@@ -353,6 +416,175 @@ TEST(StrangeCaptures, ActionUnitsAlone) {
   EXPECT_NEAR(curves.frames[0][channel("headYaw")], 0.1, 1e-6);
   EXPECT_NEAR(curves.frames[0][channel("browInnerUp")], 0, 1e-6);
   EXPECT_EQ(take->clip.frames[0].value[19] + take->clip.frames[0].value[21], 1024) << "lids meet";
+}
+
+// Rows without numbers, and a second person in the picture.
+TEST(StrangeCaptures, ActionUnitsOfSeveralFacesWithHoles) {
+  std::string text = "frame,face_id,timestamp,AU04_r,AU12_r,AU26_r,AU45_r\n";
+  for (int i = 0; i < 30; ++i) {
+    const char* const smile = i == 10 ? "nan" : "2.5";
+    text += i == 20 ? format("%d,0,%.2f,,,,\n", i, i * 0.04)
+                    : format("%d,0,%.2f,1,%s,%g,0\n", i, i * 0.04, smile, i / 10.0);
+    text += format("%d,1,%.2f,5,5,5,5\n", i, i * 0.04);
+  }
+  const auto take = imported(text);
+  ASSERT_TRUE(take) << take.error().describe();
+  EXPECT_THAT(take->warnings, Contains(HasSubstr("other faces than the first, skipped: 30")));
+  EXPECT_THAT(take->warnings, Contains(HasSubstr("rows without a face, skipped: 1")));
+  const ArkitCurves curves = weights(text);
+  ASSERT_EQ(curves.frames.size(), 30u);
+  for (std::size_t i = 0; i < 30; ++i) {
+    EXPECT_NEAR(curves.frames[i][channel("mouthSmileLeft")], 0.5, 1e-6) << i;
+    EXPECT_NEAR(curves.frames[i][channel("eyeBlinkLeft")], 0, 1e-6) << i;
+  }
+}
+
+// The same rows, as other programs write them.
+std::string table_with(const std::string& front, const char* separator, const char* end,
+                       const char* quote, char point = '.') {
+  std::string text = front;
+  const auto row = [&](std::initializer_list<std::string> fields) {
+    std::string line;
+    for (const std::string& field : fields) {
+      line += (line.empty() ? "" : separator) + (quote + field + quote);
+    }
+    text += line + end;
+  };
+  row({"time_s", "jawOpen", "eyeBlinkLeft"});
+  for (int i = 0; i < 50; ++i) {
+    std::string time = format("%.4f", i / 25.0), jaw = format("%.3f", i / 100.0), blink = "0.250";
+    for (std::string* one : {&time, &jaw, &blink}) (*one)[one->find('.')] = point;
+    row({time, jaw, blink});
+  }
+  return text;
+}
+
+TEST(StrangeCaptures, TablesOfOthers) {
+  const std::string bom = "\xEF\xBB\xBF";
+  for (const std::string& text :
+       {table_with("", ",", "\n", ""), table_with("", ",", "\n", "\""),
+        table_with("", ";", "\r\n", "\"", ','), table_with("", ",", "\n", "\"", ','),
+        table_with(bom + "sep=;\r\n", ";", "\r\n", ""),
+        table_with("# a take\n# of mine\n", ",", "\n", ""), table_with("# ", " ", "\n", ""),
+        table_with("", "   ", "\n", ""), table_with("", " | ", "\n", ""),
+        table_with("", ",", "\r", ""), table_with("", ",", ",\n", ""),
+        table_with("", "\t", "\n", "", ','), table_with("", ",", "\n", "") + ",,\n,,\n"}) {
+    const ArkitCurves curves = weights(text);
+    ASSERT_EQ(curves.frames.size(), 50u) << text.substr(0, 100);
+    EXPECT_EQ(curves.rate, (fap::Rate{25, 1}));
+    EXPECT_NEAR(curves.frames[37][channel("jawOpen")], 0.37, 1e-9) << text.substr(0, 100);
+    EXPECT_NEAR(curves.frames[37][channel("eyeBlinkLeft")], 0.25, 1e-9);
+  }
+  // A field that has separators within quotes.
+  EXPECT_TRUE(
+      imported("time_s,jawOpen,mouthClose,who\n0,0.1,0,\"Ann, Bob\"\n0.1,0.2,0,\"C\"\"D\"\n"));
+}
+
+// A missing number is no 0: the mouth would shut for a frame.
+TEST(StrangeCaptures, MissingNumbersAreInterpolated) {
+  for (const char* nothing : {"", "NaN", "nan", "NA", "#N/A", "null", "None", "-", "-nan(ind)"}) {
+    std::string text = "time_s,jawOpen,mouthClose,tongueOut\n";
+    for (int i = 0; i < 50; ++i) {
+      const std::string jaw = i == 20 || i == 21 ? nothing : format("%.2f", i / 100.0);
+      text += format("%.2f,", i / 25.0) +
+              (i == 30 ? std::string(nothing) + "," + nothing + "," + nothing
+                       : jaw + ",0.1," + nothing) +
+              "\n";
+    }
+    const auto take = imported(text);
+    ASSERT_TRUE(take) << nothing << take.error().describe();
+    EXPECT_THAT(take->warnings, Contains(HasSubstr("interpolated: 2")));
+    EXPECT_THAT(take->warnings, Contains(HasSubstr("rows without a face, skipped: 1")));
+    EXPECT_THAT(take->warnings, Contains(HasSubstr("without a number are ignored: tongueOut")));
+    ASSERT_EQ(take->clip.frames.size(), 49u);
+    const ArkitCurves curves = weights(text);
+    EXPECT_NEAR(curves.frames[20][channel("jawOpen")], 0.20, 1e-9);
+    EXPECT_NEAR(curves.frames[21][channel("jawOpen")], 0.21, 1e-9);
+  }
+  // At the ends the next one is held.
+  const ArkitCurves ends = weights("time_s,jawOpen,mouthClose\n0,,0\n0.04,0.3,0\n0.08,NaN,0\n");
+  ASSERT_EQ(ends.frames.size(), 3u);
+  EXPECT_NEAR(ends.frames[0][channel("jawOpen")], 0.3, 1e-9);
+  EXPECT_NEAR(ends.frames[2][channel("jawOpen")], 0.3, 1e-9);
+  const ArkitCurves percent = weights("time_s,jawOpen,mouthClose\n0,12%,0\n0.04,0.5%,0%\n");
+  EXPECT_NEAR(percent.frames[0][channel("jawOpen")], 0.12, 1e-9);
+  EXPECT_FALSE(imported("time_s,jawOpen,mouthClose\n0,inf,0\n0.04,0,0\n"));
+  // Of a recording that was stopped, all whole rows are read.
+  const auto cut = imported("time_s,jawOpen,mouthClose\n0,0,0\n0.04,0,0\n0.08,0");
+  ASSERT_TRUE(cut);
+  EXPECT_EQ(cut->clip.frames.size(), 2u);
+  EXPECT_THAT(cut->warnings, Contains(HasSubstr("cut off")));
+}
+
+// {"jawOpen": ..., "eyeBlinkLeft": ...} with curves of any form.
+std::string curves_by_name(const std::function<std::string(int row, double value)>& entry,
+                           const char* open, const char* close) {
+  std::string text = "{\"fps\": 30, \"takes\": {";
+  for (const char* name : {"jawOpen", "eyeBlinkLeft"}) {
+    text += format("%s\"%s\": %s", name[0] == 'e' ? ", " : "", name, open);
+    for (int i = 0; i < 40; ++i) {
+      text += (i > 0 ? ", " : "") + entry(i, name[0] == 'e' ? 0.5 : i / 100.0);
+    }
+    text += close;
+  }
+  return text + "}}";
+}
+
+TEST(StrangeCaptures, CurvesByNameInAnyForm) {
+  for (const std::string& text :
+       {curves_by_name([](int i, double v) { return format("\"%d\": %g", i, v); }, "{", "}"),
+        curves_by_name([](int i, double v) { return format("[%g, %g]", i / 30.0, v); }, "[", "]"),
+        curves_by_name([](int, double v) { return format("%g", v); }, "{\"values\": [", "]}"),
+        curves_by_name(
+            [](int i, double v) { return format("{\"time_ms\": %g, \"v\": %g}", i / 0.03, v); },
+            "{\"keys\": [", "]}")}) {
+    const ArkitCurves curves = weights(text);
+    ASSERT_EQ(curves.frames.size(), 40u) << text.substr(0, 100);
+    EXPECT_EQ(curves.rate, (fap::Rate{30, 1}));
+    EXPECT_NEAR(curves.frames[29][channel("jawOpen")], 0.29, 1e-6) << text.substr(0, 100);
+    EXPECT_NEAR(curves.frames[29][channel("eyeBlinkLeft")], 0.5, 1e-6);
+  }
+  // A list of named curves; keys at times of their own are interpolated.
+  const ArkitCurves keys = weights(
+      R"([{"name": "jawOpen", "keys": [[0, 0], [1, 1]]},
+          {"name": "mouthClose", "keys": [[0, 0.2], [0.25, 0.2], [0.5, 0.2], [0.75, 0.2], [1, 0.2]]}])");
+  ASSERT_EQ(keys.frames.size(), 5u);
+  EXPECT_NEAR(keys.frames[3][channel("jawOpen")], 0.75, 1e-9);
+  EXPECT_NEAR(keys.frames[3][channel("mouthClose")], 0.2, 1e-9);
+}
+
+TEST(StrangeCaptures, FramesInJson) {
+  const auto list = [](const std::function<std::string(int row)>& member, bool back = false) {
+    std::string text = "[";
+    for (int i = 0; i < 40; ++i) {
+      const int row = back ? 39 - i : i;
+      text += (i > 0 ? "," : "") + format("{\"jawOpen\": %g, \"mouthClose\": 0, ", row / 100.0) +
+              member(row) + "}";
+    }
+    return text + "]";
+  };
+  for (const std::string& text :
+       {list([](int i) { return format("\"timestamp\": %.3f", 1.7e12 + i / 0.03); }),
+        list([](int i) { return format("\"time\": \"%.4f\"", i / 30.0); }),
+        list([](int i) { return format("\"timecode\": \"00:00:%02d:%02d\"", i / 30, i % 30); }),
+        list([](int i) { return format("\"time\": %.4f", i / 30.0); }, true),
+        "{\"dt\": 0.0333333, \"frames\": " + list([](int) { return "\"id\": 1"; }) + "}"}) {
+    const ArkitCurves curves = weights(text);
+    ASSERT_EQ(curves.frames.size(), 40u) << text.substr(0, 120);
+    EXPECT_NEAR(curves.rate.frames_per_second(), 30, 1e-9) << text.substr(0, 120);
+    EXPECT_NEAR(curves.frames[29][channel("jawOpen")], 0.29, 1e-6) << text.substr(0, 120);
+  }
+  // Lists of pairs; a table with its names apart; NaN, as Python writes it.
+  const ArkitCurves pairs = weights(R"({"fps": 25, "frames": [[["jawOpen", 0.5], ["mouthClose", 0]],
+                                                              [["jawOpen", 0.6], ["mouthClose", 0]]]})");
+  ASSERT_EQ(pairs.frames.size(), 2u);
+  EXPECT_NEAR(pairs.frames[1][channel("jawOpen")], 0.6, 1e-9);
+  const ArkitCurves split = weights(
+      R"({"columns": ["time_s", "jawOpen", "mouthClose"], "index": [0, 1, 2],
+          "data": [[0, 0.1, 0], [0.04, NaN, 0], [0.08, 0.3, -Infinity]]})");
+  ASSERT_EQ(split.frames.size(), 3u);
+  EXPECT_EQ(split.rate, (fap::Rate{25, 1}));
+  EXPECT_NEAR(split.frames[1][channel("jawOpen")], 0.2, 1e-9);
 }
 
 }  // namespace strange_captures_test

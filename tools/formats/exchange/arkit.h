@@ -44,26 +44,29 @@ bool is_arkit_table(std::string_view text);
 /// Times are the column timecode, time_s, time, timestamp or the like, in seconds ("1.0333") or as
 /// hh:mm:ss:ff.fff. What the last field means is told by which reading makes the steps even: frames
 /// and a fraction of a frame, a frame and milliseconds of the second, or milliseconds alone
-/// (hh:mm:ss:mmm); with a semicolon (hh:mm:ss;ff) it is drop-frame. Without times options.rate is
-/// required, and rows are numbered by the column frame, or one after the other. Timecode frames a
-/// second are the
-/// smallest of 24, 25, 30, 48, 50, 60, 100, 120 that no frame number reaches, or fewer if rows
+/// (hh:mm:ss:mmm); with a semicolon (hh:mm:ss;ff) it is drop-frame, of 29.97 or 59.94 frames a
+/// second. A date may stand before a time. Without times options.rate is required, and rows are
+/// numbered by the column frame, or one after the other. Timecode frames a second are the smallest
+/// of 24, 25, 30, 48, 50, 60, 100, 120 that no frame number reaches, or fewer if rows
 /// count up by one and never get that far; in a take within one second, what fits options.rate,
 /// else 60 with a warning. The rest are channels (fap/arkit.h, any case); missing ones are 0, and
 /// an angle that is 0 throughout counts as missing. Other columns are ignored and named in the
 /// warnings.
 ///
 /// Weights from 0 to 100 are taken as percent and angles beyond half a turn as degrees, with a
-/// warning. A shape of one side alone says that the other side rests.
+/// warning. A shape of one side alone says that the other side rests. Fields without a number
+/// (empty, NaN, NA, null, "-") lie on the line between those of the rows around, with a warning;
+/// rows without any are skipped, columns without any ignored.
 ///
 /// The rate is that of the median step, snapped to a rate in common use (10 to 120, NTSC ones
 /// included) within 1 %, else to one that FBA can code (k/16). Timecodes count whole frames, so
-/// 29.97 is 30 there unless options.rate or fractions of frames say otherwise. Each row becomes the
-/// frame nearest to its time; small deviations do not matter, larger steps skip frame numbers
-/// (skipped frames). Rows in even steps are never dropped: the rate is one that stays within 40 ms
-/// of them to their end, or the next higher one, and then a frame is added where they fall behind,
-/// with a warning. If several rows of others fall on the same frame, the last one is used. Rows of
-/// Live Link Face without a face (BlendShapeCount 0) are skipped.
+/// 29.97 is 30 there unless options.rate, fractions of frames or drop-frame say otherwise. Each row
+/// becomes the frame nearest to its time; small deviations do not matter, larger steps skip frame
+/// numbers (skipped frames). Rows in even steps are never dropped: the rate is one that stays
+/// within 40 ms of them to their end, or the next higher one, and then a frame is added where they
+/// fall behind, with a warning. If several rows of others fall on the same frame, the last one is
+/// used. Rows of Live Link Face without a face (BlendShapeCount 0) are skipped, and a last row that
+/// is cut off.
 ///
 /// Errors, with line and column: truncated (no rows), not_found (no time, no channel), syntax (a
 /// field that is not a number, missing fields, a duplicate column), out_of_range (times that go

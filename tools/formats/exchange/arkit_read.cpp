@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "tools/formats/exchange/arkit.h"
 #include "tools/formats/exchange/detail/arkit_units.h"
+#include "tools/formats/exchange/detail/plain_table.h"
 #include "tools/formats/exchange/detail/table.h"
 #include "tools/formats/exchange/detail/times.h"
 
@@ -72,10 +74,23 @@ Result<Columns> read_header(const Row& header, bool has_rate, std::vector<std::s
   return columns;
 }
 
-// A row without a face has a count of 0 and often nothing behind it.
+// A row without a face has a count of 0 and often nothing behind it, or no numbers.
 bool without_face(const Columns& columns, const Row& row) {
-  return columns.shape_count && *columns.shape_count < row.size() &&
-         row.number(*columns.shape_count) == 0.0;
+  if (columns.shape_count && *columns.shape_count < row.size() &&
+      row.number(*columns.shape_count) == 0.0) {
+    return true;
+  }
+  return row.size() == columns.names.size() &&
+         std::all_of(columns.channels.begin(), columns.channels.end(),
+                     [&](const auto& channel) { return is_missing(row.text(channel.first)); });
+}
+
+// "0.12" or "12%".
+std::optional<double> weight_of(std::string_view text) {
+  if (!text.ends_with('%')) return dam::parse_number(text);
+  text.remove_suffix(1);
+  const auto percent = dam::parse_number(text);
+  return percent ? std::optional(*percent / 100) : std::nullopt;
 }
 
 Result<RowTime> read_time(const Row& row, const Columns& columns, std::size_t rows,
@@ -107,7 +122,11 @@ Result<void> read_row(const Row& row, const Columns& columns, std::optional<fap:
   if (!time) return std::move(time).error();
   fap::ArkitFrame values{};
   for (const auto& [field, channel] : columns.channels) {
-    const auto value = row.number(field);
+    if (is_missing(row.text(field))) {
+      values[std::size_t(channel)] = std::numeric_limits<double>::quiet_NaN();
+      continue;
+    }
+    const auto value = weight_of(row.text(field));
     if (!value || !std::isfinite(*value)) {
       return row.wrong(field, columns.names[field],
                        "not a finite number; correct it or remove the line");
@@ -119,13 +138,64 @@ Result<void> read_row(const Row& row, const Columns& columns, std::optional<fap:
   return {};
 }
 
-Result<ArkitRows> read_rows(const std::vector<dam::TableLine>& lines, char separator,
-                            const Columns& columns, std::optional<fap::Rate> rate,
+// Numbers that are missing in a column lie on the line between those before and behind; at its ends
+// the next one is held. The number of them.
+std::size_t interpolate(std::vector<fap::ArkitFrame>& rows, std::size_t channel) {
+  const auto known = [&](std::size_t row) { return !std::isnan(rows[row][channel]); };
+  std::size_t filled = 0;
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    if (known(row)) continue;
+    std::size_t next = row;
+    while (next < rows.size() && !known(next)) ++next;
+    const double before = row > 0 ? rows[row - 1][channel] : rows[next][channel];
+    const double behind = next < rows.size() ? rows[next][channel] : before;
+    const double steps = double(next - row + 1);
+    filled += next - row;
+    for (std::size_t i = row; i < next; ++i) {
+      rows[i][channel] = before + (behind - before) * double(i - row + 1) / steps;
+    }
+    row = next;
+  }
+  return filled;
+}
+
+// Columns without any number are left out.
+void fill_missing(Columns& columns, std::vector<fap::ArkitFrame>& rows,
+                  std::vector<std::string>& warnings) {
+  std::vector<std::string> empty;
+  std::size_t filled = 0;
+  std::erase_if(columns.channels, [&](const auto& column) {
+    const std::size_t channel = std::size_t(column.second);
+    const bool none = std::all_of(rows.begin(), rows.end(), [&](const fap::ArkitFrame& row) {
+      return std::isnan(row[channel]);
+    });
+    if (!none) {
+      filled += interpolate(rows, channel);
+      return false;
+    }
+    empty.push_back(columns.names[column.first]);
+    for (fap::ArkitFrame& row : rows) row[channel] = 0;
+    return true;
+  });
+  if (!empty.empty()) {
+    warnings.push_back("columns without a number are ignored: " + list_of_names(empty));
+  }
+  if (filled > 0) {
+    warnings.push_back("fields without a number, interpolated: " + std::to_string(filled));
+  }
+}
+
+Result<ArkitRows> read_rows(const std::vector<dam::TableLine>& lines, char separator, bool cut,
+                            Columns& columns, std::optional<fap::Rate> rate,
                             std::vector<std::string>& warnings) {
   ArkitRows rows;
   std::size_t lost = 0;
   for (std::size_t i = 1; i < lines.size(); ++i) {
     const Row fields(lines[i], separator);
+    if (cut && i > 1 && i + 1 == lines.size() && fields.size() < columns.names.size()) {
+      warnings.emplace_back("the last row is cut off and was left out");
+      continue;
+    }
     if (without_face(columns, fields)) {
       ++lost;
       continue;
@@ -138,6 +208,7 @@ Result<ArkitRows> read_rows(const std::vector<dam::TableLine>& lines, char separ
   if (lost > 0) {
     warnings.push_back("rows without a face, skipped: " + std::to_string(lost));
   }
+  fill_missing(columns, rows.values, warnings);
   return rows;
 }
 
@@ -184,9 +255,11 @@ Result<TableRows> read_placed(std::string_view text, const ArkitOptions& options
   const char separator = separator_of(lines[0].text);
   const std::optional<fap::Rate> rate =
       options.rate && options.rate->valid() ? options.rate : std::nullopt;
-  const auto columns = read_header(Row(lines[0], separator), rate.has_value(), warnings);
+  auto columns = read_header(Row(lines[0], separator), rate.has_value(), warnings);
   if (!columns) return columns.error();
-  auto rows = read_rows(lines, separator, *columns, rate, warnings);
+  // A recording that was stopped ends within a row.
+  const bool cut = !text.ends_with('\n');
+  auto rows = read_rows(lines, separator, cut, *columns, rate, warnings);
   if (!rows) return rows.error();
   auto placed = place_rows(rows->times, options.rate, warnings);
   if (!placed) return placed.error();

@@ -10,6 +10,7 @@
 #include "tools/formats/exchange/detail/face_packets.h"
 #include "tools/formats/exchange/detail/json_landmarks.h"
 #include "tools/formats/exchange/detail/landmark_columns.h"
+#include "tools/formats/exchange/detail/plain_table.h"
 #include "tools/formats/exchange/detail/table.h"
 
 namespace animeme::exchange {
@@ -162,6 +163,11 @@ bool is_numeric(std::string_view field) {
   return !field.empty() && field.find_first_not_of("+-0123456789.eE") == std::string_view::npos;
 }
 
+// The same with percent signs, and colons, as in 00:00:01.040.
+bool is_quantity(std::string_view field) {
+  return !field.empty() && field.find_first_not_of("+-0123456789.eE%:") == std::string_view::npos;
+}
+
 // Decimal commas in rows behind the header, which has other separators: some, and nothing else.
 bool has_decimal_commas(const std::vector<dam::TableLine>& lines) {
   const char separator = separator_of(lines[0].text);
@@ -173,7 +179,7 @@ bool has_decimal_commas(const std::vector<dam::TableLine>& lines) {
       const std::size_t comma = number.find(',');
       if (comma == std::string::npos) continue;
       number[comma] = '.';
-      if (!is_numeric(number)) return false;
+      if (!is_quantity(number)) return false;
       any = true;
     }
   }
@@ -182,6 +188,12 @@ bool has_decimal_commas(const std::vector<dam::TableLine>& lines) {
 
 // The first line with content: readers leave empty lines out.
 std::string_view header_of(const std::vector<dam::TableLine>& lines) { return lines[0].text; }
+
+std::string header_of_plain(std::string_view text) {
+  const std::string plain = plain_table(text);
+  const auto lines = dam::table_lines(plain);
+  return lines.empty() ? std::string() : std::string(lines[0].text);
+}
 
 Error no_table(const std::vector<dam::TableLine>& lines) {
   const std::string_view header = header_of(lines);
@@ -229,7 +241,9 @@ bool has_times(std::string_view table) {
 
 Result<CaptureTable> capture_table(std::string_view text, const CaptureTableOptions& options) {
   if (const std::string what = foreign_file(bytes_of(text)); !what.empty()) {
-    return make_error(Code::unsupported, what);
+    // Numbers behind a comment may have their names in it.
+    const bool named = text.starts_with('#') && is_arkit_table(header_of_plain(text));
+    if (!named) return make_error(Code::unsupported, what);
   }
   CaptureTable out;
   if (is_json(text)) {
@@ -242,7 +256,7 @@ Result<CaptureTable> capture_table(std::string_view text, const CaptureTableOpti
     out.table = std::move(shapes->table);
     out.warnings = std::move(shapes->warnings);
   } else {
-    out.table = text;
+    out.table = plain_table(text);
   }
   auto lines = dam::table_lines(out.table);
   if (lines.empty()) return make_error(Code::truncated, "the file is empty");

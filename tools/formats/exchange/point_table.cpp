@@ -83,8 +83,8 @@ Result<PointHeader> read_point_header(const Row& row, std::vector<std::string>& 
     const std::string word = lower_case(name);
     if (is_time_name(word) || word == "success") {
       auto& place = word == "success" ? header.success : header.time;
-      if (place) return row.named_twice(i);
-      place = i;
+      if (place && lower_case(header.names[*place]) == word) return row.named_twice(i);
+      if (!place) place = i;
     } else if (const auto column = parse_column(name)) {
       if (!(column->space ? space : picture).add(column->point, column->axis, i)) {
         return row.named_twice(i);

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "fap/arkit.h"
+#include "tools/formats/exchange/detail/plain_table.h"
 #include "tools/formats/exchange/detail/table.h"
 
 namespace animeme::exchange {
@@ -108,7 +109,7 @@ struct UnitColumns {
   };
   std::vector<Used> units;
   std::vector<std::pair<std::size_t, const UnitAngle*>> angles;
-  std::optional<std::size_t> time, success;
+  std::optional<std::size_t> time, success, face;
   std::size_t frame = 0;
   bool has_frame = false;
   std::vector<std::string> unknown;
@@ -136,6 +137,7 @@ UnitColumns unit_columns(const Row& header) {
     }
     if (is_time_name(name) && !columns.time) columns.time = i;
     if (name == "success") columns.success = i;
+    if (name == "face_id" || name == "face") columns.face = i;
     if (is_frame_name(name)) {
       columns.frame = i;
       columns.has_frame = true;
@@ -210,24 +212,35 @@ Result<ShapeTable> action_units_to_shapes(std::string_view text) {
   for (const UnitColumns::Used& one : columns.units) for_channels(*one.unit, use);
   for (const auto& [field, angle] : columns.angles) for_channels(*angle, use);
   ShapeTableWriter table(columns.time ? "time_s" : columns.has_frame ? "frame" : "row", used);
-  std::size_t lost = 0;
+  std::size_t lost = 0, others = 0;
+  std::optional<double> face;  // the first one's number
   for (std::size_t i = 1; i < lines.size(); ++i) {
     const Row row(lines[i], separator);
     if (auto ok = row.check_size(header.size()); !ok) return ok.error();
-    if (columns.success && row.number(*columns.success) == 0.0) {
+    if (columns.face && !face) face = row.number(*columns.face);
+    if (face && row.number(*columns.face) != face) {
+      ++others;
+      continue;
+    }
+    const bool nothing = std::all_of(
+        columns.units.begin(), columns.units.end(),
+        [&](const UnitColumns::Used& unit) { return is_missing(row.text(unit.field)); });
+    if (nothing || (columns.success && row.number(*columns.success) == 0.0)) {
       ++lost;
       continue;
     }
     fap::ArkitFrame frame{};
     for (const UnitColumns::Used& one : columns.units) {
-      const auto value = row.number(one.field);
-      if (!value || !std::isfinite(*value)) {
+      const bool missing = is_missing(row.text(one.field));  // its shapes are, too
+      const auto value = missing ? std::nan("") : row.number(one.field);
+      if (!missing && (!value || !std::isfinite(*value))) {
         return row.wrong(one.field, std::string(header.text(one.field)),
                          "not a finite number; correct it or remove the line");
       }
       const double weight = *value / (one.kind == 'c' ? 1 : full) * one.unit->share;
       for_channels(*one.unit, [&](std::size_t channel) {
-        frame[channel] = std::clamp(frame[channel] + weight, 0.0, 1.0);
+        const double sum = frame[channel] + weight;
+        frame[channel] = std::isnan(sum) ? sum : std::clamp(sum, 0.0, 1.0);
       });
     }
     for (const auto& [field, angle] : columns.angles) {
@@ -244,6 +257,10 @@ Result<ShapeTable> action_units_to_shapes(std::string_view text) {
                          " action units without points of the face, which say less of the lips; "
                          "OpenFace writes the points with FeatureExtraction -2Dfp -3Dfp");
   if (lost > 0) out.warnings.push_back("rows without a face, skipped: " + std::to_string(lost));
+  if (others > 0) {
+    out.warnings.push_back("rows of other faces than the first, skipped: " +
+                           std::to_string(others));
+  }
   if (!columns.unknown.empty()) {
     out.warnings.push_back("action units without a shape are ignored: " +
                            list_of_names(columns.unknown));

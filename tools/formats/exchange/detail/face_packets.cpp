@@ -12,6 +12,7 @@
 
 #include "dam/script/table_text_internal.h"
 #include "fap/arkit.h"
+#include "tools/formats/exchange/detail/times.h"
 
 namespace animeme::exchange {
 
@@ -59,7 +60,8 @@ std::vector<Packet> packets_of(std::string_view text) {
     text.remove_prefix(std::min(row.size() + 1, text.size()));
     while (!row.empty()) {
       const std::size_t end = row.find(kPacketEnd);
-      const std::string_view one = dam::trimmed(row.substr(0, end));
+      std::string_view one = dam::trimmed(row.substr(0, end));
+      if (one.starts_with("b'") && one.ends_with("'")) one = one.substr(2, one.size() - 3);
       if (!one.empty() && !one.starts_with('#')) packets.push_back({one, line});
       row.remove_prefix(end == std::string_view::npos ? row.size() : end + kPacketEnd.size());
     }
@@ -71,9 +73,10 @@ std::vector<Packet> packets_of(std::string_view text) {
 std::optional<double> take_time(std::string_view& packet) {
   const std::size_t end = packet.find_first_of("|,;\t ");
   if (end == std::string_view::npos) return std::nullopt;
-  const std::optional<double> time = dam::parse_number(packet.substr(0, end));
-  if (time) packet.remove_prefix(end + 1);
-  return time;
+  const std::optional<RowTime> time = parse_time(packet.substr(0, end), 0);
+  if (!time || time->frames) return std::nullopt;
+  packet.remove_prefix(end + 1);
+  return time->seconds;
 }
 
 class PacketReader {

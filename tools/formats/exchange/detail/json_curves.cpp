@@ -8,7 +8,9 @@
 
 #include "fap/arkit.h"
 #include "tools/formats/exchange/detail/json_landmarks.h"
+#include "tools/formats/exchange/detail/json_series.h"
 #include "tools/formats/exchange/detail/table.h"
+#include "tools/formats/exchange/detail/times.h"
 
 namespace animeme::exchange {
 
@@ -35,18 +37,13 @@ bool is_rate_name(std::string_view name) {
   return is_one_of(name, {"fps", "exportfps", "framerate", "framespersecond", "rate",
                           "samplingrate", "recordingfps", "capturefps", "playbackfps"});
 }
-bool is_seconds_name(std::string_view name) {
-  return is_one_of(name, {"time", "times", "timestamp", "timestamps", "t", "seconds", "timecode",
-                          "timesec", "timeseconds", "timestampsec", "currenttime"});
-}
-bool is_milliseconds_name(std::string_view name) {
-  return is_one_of(name, {"timestampms", "timems", "ms", "milliseconds", "timestampmilliseconds"});
-}
-bool is_number_name(std::string_view name) {
-  return is_one_of(name, {"frame", "framenumber", "frameindex", "index", "frameid"});
+bool is_step_name(std::string_view name) {
+  return is_one_of(name, {"dt", "deltatime", "timestep", "frametime", "frameduration",
+                          "secondsperframe", "frameinterval"});
 }
 
 std::optional<double> number_in(const Json& json) {
+  if (json.is_string()) return dam::parse_number(json.text());
   if (!json.is_number()) return std::nullopt;
   return json.get<double>();
 }
@@ -70,6 +67,11 @@ std::optional<double> find_rate(const Json& json, int depth = 0) {
     if (const auto rate = rate_in(value)) return rate;
   }
   for (const auto& [key, value] : json.items()) {
+    const auto step = is_step_name(key) ? rate_in(value) : std::nullopt;
+    if (step && *step < 1) return 1 / *step;
+    if (step && *step > 1) return 1000 / *step;  // milliseconds
+  }
+  for (const auto& [key, value] : json.items()) {
     if (const auto rate = find_rate(value, depth + 1)) return rate;
   }
   return std::nullopt;
@@ -77,6 +79,7 @@ std::optional<double> find_rate(const Json& json, int depth = 0) {
 
 struct CurveFrame {
   std::optional<double> seconds, number;
+  std::string timecode;          // as text
   std::map<int, double> values;  // by channel
 };
 
@@ -93,10 +96,15 @@ void note_unknown(Curves& curves, const std::string& name) {
   }
 }
 
+bool is_weight(const Json& json) { return json.is_number() || json.is_null(); }
+
+// Null is what writers of JSON make of NaN: missing, not 0.
+double weight_in(const Json& json) { return json.is_number() ? json.get<double>() : std::nan(""); }
+
 // Lists of numbers, of one length each.
 bool is_row(const Json& json, std::size_t size) {
   return json.is_array() && json.size() == size && size > 0 &&
-         std::all_of(json.begin(), json.end(), [](const Json& one) { return one.is_number(); });
+         std::all_of(json.begin(), json.end(), is_weight);
 }
 
 bool is_matrix(const Json& json, std::size_t columns) {
@@ -116,14 +124,19 @@ bool is_name_list(const Json& json) {
   return known >= 2;
 }
 
-void read_clock(const Json& json, CurveFrame& frame) {
-  for (const auto& [key, value] : json.items()) {
-    const auto number = number_in(value);
-    if (!number) continue;
-    if (is_seconds_name(key) && !frame.seconds) frame.seconds = *number;
-    if (is_milliseconds_name(key) && !frame.seconds) frame.seconds = *number / 1000;
-    if (is_number_name(key) && !frame.number) frame.number = *number;
+void put_clock(const std::string& name, const Json& value, CurveFrame& frame) {
+  const ClockUnit unit = clock_unit(name);
+  if (unit == ClockUnit::none || !(value.is_number() || value.is_string())) return;
+  if (const auto number = number_in(value)) {
+    std::optional<double>& place = unit == ClockUnit::frames ? frame.number : frame.seconds;
+    if (!place) place = *number * (unit == ClockUnit::milliseconds ? 0.001 : 1);
+  } else if (value.is_string() && frame.timecode.empty() && parse_time(value.text(), 0)) {
+    frame.timecode = value.text();
   }
+}
+
+void read_clock(const Json& json, CurveFrame& frame) {
+  for (const auto& [key, value] : json.items()) put_clock(key, value, frame);
 }
 
 using NameList = std::vector<std::string>;
@@ -132,7 +145,9 @@ CurveFrame frame_of_row(const Json& row, const NameList& names, Curves& curves) 
   CurveFrame frame;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (const auto channel = fap::find_arkit(names[i])) {
-      frame.values.emplace(*channel, row[i].get<double>());
+      frame.values.emplace(*channel, weight_in(row[i]));
+    } else if (clock_unit(names[i]) != ClockUnit::none) {
+      put_clock(names[i], row[i], frame);
     } else {
       note_unknown(curves, names[i]);
     }
@@ -182,10 +197,13 @@ bool read_matrix(const Json& json, const NameList& names, Curves& curves) {
 // Times in a list as long as the frames are many.
 void read_times(const Json& object, Curves& curves) {
   for (const auto& [key, value] : object.items()) {
-    const bool ms = is_milliseconds_name(key);
-    if ((!ms && !is_seconds_name(key)) || !is_row(value, curves.frames.size())) continue;
+    const ClockUnit unit = clock_unit(key);
+    if (unit == ClockUnit::none || unit == ClockUnit::frames || !value.is_array() ||
+        value.size() != curves.frames.size()) {
+      continue;
+    }
     for (std::size_t i = 0; i < curves.frames.size(); ++i) {
-      curves.frames[i].seconds = value[i].get<double>() / (ms ? 1000 : 1);
+      put_clock(key, value[i], curves.frames[i]);
     }
     return;
   }
@@ -227,11 +245,11 @@ bool read_columns(const Json& json, Curves& curves) {
     const auto channel = fap::find_arkit(key);
     if (!is_row(value, length)) continue;
     if (!channel) {
-      if (!is_seconds_name(key) && !is_milliseconds_name(key)) note_unknown(curves, key);
+      if (clock_unit(key) == ClockUnit::none) note_unknown(curves, key);
       continue;
     }
     for (std::size_t i = 0; i < length; ++i) {
-      curves.frames[i].values.emplace(*channel, value[i].get<double>());
+      curves.frames[i].values.emplace(*channel, weight_in(value[i]));
     }
   }
   read_times(json, curves);
@@ -249,16 +267,21 @@ bool find_columns(const Json& json, Curves& curves, int depth = 0) {
   return false;
 }
 
-// {"name": "jawOpen", "value": 0.1}, whatever its members are called.
+// {"name": "jawOpen", "value": 0.1}, whatever its members are called, or ["jawOpen", 0.1].
 bool read_named_number(const Json& json, CurveFrame& frame) {
+  if (json.is_array() && json.size() == 2 && json[0].is_string() && is_weight(json[1])) {
+    const auto channel = fap::find_arkit(json[0].text());
+    if (channel) frame.values.emplace(*channel, weight_in(json[1]));
+    return channel.has_value();
+  }
   const std::string* name = nullptr;
   for (const auto& [key, value] : json.items()) {
     if (value.is_string() && fap::find_arkit(value.text())) name = &value.text();
   }
   if (name == nullptr) return false;
   for (const auto& [key, value] : json.items()) {
-    if (!value.is_number() || is_number_name(key)) continue;
-    frame.values.emplace(*fap::find_arkit(*name), value.get<double>());
+    if (!is_weight(value) || clock_unit(key) == ClockUnit::frames) continue;
+    frame.values.emplace(*fap::find_arkit(*name), weight_in(value));
     return true;
   }
   return false;
@@ -282,14 +305,13 @@ void read_named(const Json& json, CurveFrame& frame, Curves& curves, int depth =
   bool any = false;
   for (const auto& [key, value] : json.items()) {
     const auto channel = fap::find_arkit(key);
-    if (channel && value.is_number()) {
-      frame.values.emplace(*channel, value.get<double>());
+    if (channel && is_weight(value)) {
+      frame.values.emplace(*channel, weight_in(value));
       any = true;
     }
   }
   for (const auto& [key, value] : json.items()) {
-    if (any && value.is_number() && !fap::find_arkit(key) && !is_seconds_name(key) &&
-        !is_milliseconds_name(key) && !is_number_name(key)) {
+    if (any && value.is_number() && !fap::find_arkit(key) && clock_unit(key) == ClockUnit::none) {
       note_unknown(curves, key);
     }
     if (value.is_structured()) read_named(value, frame, curves, depth + 1);
@@ -386,7 +408,7 @@ bool read_azure(const Json& json, Curves& curves, int depth = 0) {
     static const NameList kNames = azure_names();
     double number = double(curves.frames.size());
     for (const auto& [other, index] : json.items()) {
-      if (is_number_name(other)) number = number_in(index).value_or(number);
+      if (clock_unit(other) == ClockUnit::frames) number = number_in(index).value_or(number);
     }
     for (const Json& row : value) {
       curves.frames.push_back(frame_of_row(row, kNames, curves));
@@ -402,17 +424,46 @@ bool read_azure(const Json& json, Curves& curves, int depth = 0) {
   return any;
 }
 
-ShapeTable curves_table(const Curves& curves) {
+// {"jawOpen": {"0": 0.1, ...}, ...}, [{"name": "jawOpen", "keys": [...]}, ...] and the like.
+bool find_series(const Json& json, Curves& curves) {
+  const auto series = find_json_series(json);
+  if (!series) return false;
+  for (std::size_t i = 0; i < series->at.size(); ++i) {
+    CurveFrame frame;
+    (series->seconds ? frame.seconds : frame.number) = series->at[i];
+    frame.values = series->values[i];
+    curves.frames.push_back(std::move(frame));
+  }
+  return true;
+}
+
+// Enough digits for milliseconds since 1970.
+std::string cell_of_time(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.15g", value);
+  return text;
+}
+
+ShapeTable curves_table(Curves& curves) {
   const auto all = [&](auto holds) {
     return std::all_of(curves.frames.begin(), curves.frames.end(), holds);
   };
+  const bool timecodes = all([](const CurveFrame& frame) { return !frame.timecode.empty(); });
   const bool times = all([](const CurveFrame& frame) { return frame.seconds.has_value(); });
   const bool numbers = all([](const CurveFrame& frame) { return frame.number.has_value(); });
+  // Writers that gather frames from several threads do not keep their order.
+  if (times || numbers) {
+    std::stable_sort(curves.frames.begin(), curves.frames.end(),
+                     [&](const CurveFrame& a, const CurveFrame& b) {
+                       return times ? *a.seconds < *b.seconds : *a.number < *b.number;
+                     });
+  }
   fap::ArkitChannels used;
   for (const CurveFrame& frame : curves.frames) {
     for (const auto& [channel, value] : frame.values) used.set(std::size_t(channel));
   }
-  ShapeTableWriter table(times || curves.rate ? "time_s" : numbers ? "frame" : "row", used);
+  const bool clock = times || timecodes || curves.rate;
+  ShapeTableWriter table(clock ? "time_s" : numbers ? "frame" : "row", used);
   std::size_t lost = 0;
   for (std::size_t i = 0; i < curves.frames.size(); ++i) {
     const CurveFrame& frame = curves.frames[i];
@@ -423,7 +474,8 @@ ShapeTable curves_table(const Curves& curves) {
     fap::ArkitFrame values{};
     for (const auto& [channel, value] : frame.values) values[std::size_t(channel)] = value;
     const double at = numbers ? *frame.number : double(i);
-    table.add(cell_of(times ? *frame.seconds : curves.rate ? at / *curves.rate : at), values);
+    const double time = times ? *frame.seconds : curves.rate ? at / *curves.rate : at;
+    table.add(timecodes && !times ? frame.timecode : cell_of_time(time), values);
   }
   ShapeTable out{table.take(), {}};
   if (lost > 0) out.warnings.push_back("frames without a face, skipped: " + std::to_string(lost));
@@ -444,6 +496,8 @@ bool find_any(const Json& root, Curves& curves) {
   const auto fresh = [&] { curves = {{}, curves.rate, {}}; };
   fresh();
   if (find_columns(root, curves)) return true;
+  fresh();
+  if (find_series(root, curves)) return true;
   fresh();
   if (find_list(root, curves)) return true;
   fresh();

@@ -15,13 +15,15 @@ namespace animeme::exchange {
 ///   one a name, or beside frames that each hold a row (animeme-arkit, Audio2Face, BEAT);
 /// - a list of objects, or of lists of {name, number}, that each hold numbers by name, at any depth
 ///   (MediaPipe, face-api, dictionaries); an object of such objects by number; one frame alone;
-/// - an object with a list of numbers a name;
+/// - an object with a list of numbers a name, or with a curve in another form (json_series.h);
 /// - pieces of 55 numbers a frame and the number of their first frame (Azure Speech, 60 a second),
 ///   also as text in `animation` of its viseme events.
 ///
 /// The rate is a number, or two, called fps, frameRate, exportFps, rate or the like, beside the
-/// frames or further out; the time of a frame time, timestamp, t, timeCode and the like in seconds,
-/// or timestamp_ms, time_ms. With neither, the table has no times, and its reader wants a rate.
+/// frames or further out, or the seconds of a frame: dt, frameTime; the time of a frame time,
+/// timestamp, t, timeCode and the like in seconds, as a number or a text, or timestamp_ms, time_ms.
+/// With neither, the table has no times, and its reader wants a rate. Frames are sorted by time. A
+/// null is a missing number.
 ///
 /// nullopt: there are no such curves.
 std::optional<ShapeTable> find_json_curves(const tools::Json& root);

@@ -185,10 +185,39 @@ Result<void> write_points(const std::vector<Frame>& frames, JsonTable& out) {
   return {};
 }
 
+// NaN and Infinity, which Python writes and JSON does not have, become null.
+std::string without_nan(std::string_view text) {
+  std::string out;
+  bool inside = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"') inside = !inside;
+    if (inside && c == '\\' && i + 1 < text.size()) {
+      out += c;
+      out += text[++i];
+      continue;
+    }
+    std::string_view word;
+    for (const std::string_view one : {"NaN", "-NaN", "Infinity", "-Infinity"}) {
+      if (!inside && text.substr(i).starts_with(one)) word = one;
+    }
+    out += word.empty() ? std::string_view(&c, 1) : "null";
+    if (!word.empty()) i += word.size() - 1;
+  }
+  return out;
+}
+
 // The frames of a value, or of one value a line.
 Result<Json> parse(std::string_view text) {
   Result<Json> json = Json::parse(text, {.sorted = true});
   if (json) return json;
+  std::string plain;
+  if (text.find("NaN") != std::string_view::npos || text.find("Infinity") != text.npos) {
+    plain = without_nan(text);
+    text = plain;
+    json = Json::parse(text, {.sorted = true});
+    if (json) return json;
+  }
   Json lines = Json::array();
   for (const dam::TableLine& line : dam::table_lines(text)) {
     Result<Json> one = Json::parse(line.text, {.sorted = true});

@@ -6,6 +6,7 @@
 namespace animeme::exchange {
 
 std::string cell_of(double value) {
+  if (std::isnan(value)) return {};
   if (!std::isfinite(value)) return "0";
   char text[40];
   std::snprintf(text, sizeof text, "%.9g", value);

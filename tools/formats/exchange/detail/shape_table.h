@@ -35,7 +35,7 @@ class ShapeTableWriter {
   std::string table_;
 };
 
-/// A number as a cell; one that is not finite is 0.
+/// A number as a cell; NaN is an empty one, infinity 0.
 std::string cell_of(double value);
 
 }  // namespace animeme::exchange

@@ -36,17 +36,49 @@ char separator_of(std::string_view header) {
   return best;
 }
 
+namespace {
+
+// "Time (s)", "time_s" and "TimeS" are "times".
+std::string letters_of(std::string_view name) {
+  std::string out;
+  for (const char c : lower_case(name)) {
+    if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9')) out += c;
+  }
+  return out;
+}
+
+}  // namespace
+
 bool is_time_name(std::string_view name) {
-  constexpr std::string_view kNames[] = {"timecode",     "time_s",  "time",    "timestamp",
-                                         "time_ms",      "time_us", "seconds", "time_seconds",
-                                         "timestamp_ms", "time_sec"};
-  return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
+  constexpr std::string_view kNames[] = {
+      "timecode", "tc",          "time",        "timestamp",   "t",         "elapsed",
+      "seconds",  "sec",         "secs",        "pts",         "datetime",  "elapsedtime",
+      "ptstime",  "currenttime", "frametime",   "frametimein", "mediatime", "systemtime",
+      "unixtime", "ms",          "milliseconds"};
+  // Units behind it, as in "time_ms".
+  constexpr std::string_view kUnits[] = {
+      "",   "s",    "sec",          "secs", "seconds", "ms",         "msec", "milliseconds",
+      "us", "usec", "microseconds", "ns",   "nsec",    "nanoseconds"};
+  const std::string letters = letters_of(name);
+  for (const std::string_view known : kNames) {
+    if (!letters.starts_with(known)) continue;
+    const std::string_view unit = std::string_view(letters).substr(known.size());
+    if (unit.empty()) return true;
+    // ("ts", "secs" and "pts" with units are no words.)
+    if (known.size() >= 4 &&
+        std::find(std::begin(kUnits), std::end(kUnits), unit) != std::end(kUnits)) {
+      return true;
+    }
+  }
+  return false;
 }
 
 bool is_frame_name(std::string_view name) {
-  constexpr std::string_view kNames[] = {"frame",      "frame_number", "frame_index",
-                                         "frameindex", "framenumber",  "frame_id"};
-  return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
+  constexpr std::string_view kNames[] = {"frame",    "framenumber", "frameindex",
+                                         "frameid",  "frameno",     "framenum",
+                                         "frameidx", "framecount",  "framenr"};
+  const std::string letters = letters_of(name);
+  return std::find(std::begin(kNames), std::end(kNames), letters) != std::end(kNames);
 }
 
 std::string list_of_names(const std::vector<std::string>& names) {

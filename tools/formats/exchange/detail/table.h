@@ -26,10 +26,10 @@ std::string_view first_line(std::string_view text);
 /// Of comma, semicolon and tab the one that a header line has most of.
 char separator_of(std::string_view header);
 
-/// True for timecode, time_s, time, timestamp, time_ms, timestamp_ms, seconds and the like (lower
-/// case): a column of times, whose unit is told from their steps.
+/// True for timecode, time_s, "Time (ms)", timestamp, elapsed, t, seconds and the like, whatever
+/// case and marks: a column of times, whose unit is told from their steps.
 bool is_time_name(std::string_view name);
-/// True for frame, frame_number, frame_index and the like (lower case).
+/// True for frame, frame_number, "Frame #" and the like, whatever case and marks.
 bool is_frame_name(std::string_view name);
 
 /// "A, B, C, D, E, F and 3 more".
@@ -45,11 +45,13 @@ class Row {
 
   std::size_t line() const { return line_.number; }
   std::size_t size() const { return fields_.size(); }
-  /// Without blanks around it.
-  std::string_view text(std::size_t field) const { return dam::trimmed(fields_[field]); }
-  std::optional<double> number(std::size_t field) const {
-    return dam::parse_number(fields_[field]);
+  /// Without blanks and quotes around it.
+  std::string_view text(std::size_t field) const {
+    std::string_view text = dam::trimmed(fields_[field]);
+    if (text.size() < 2 || !text.starts_with('"') || !text.ends_with('"')) return text;
+    return dam::trimmed(text.substr(1, text.size() - 2));
   }
+  std::optional<double> number(std::size_t field) const { return dam::parse_number(text(field)); }
 
   /// Errors: syntax, if there are more or fewer fields than `columns`.
   Result<void> check_size(std::size_t columns) const;

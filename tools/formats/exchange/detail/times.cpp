@@ -25,12 +25,15 @@ constexpr double kNtscFrom = 2.0;        // seconds: shorter clips cannot tell 2
 constexpr double kEven = 0.3;            // of a step: one that differs less from the median is even
 constexpr double kMostlyEven = 0.95;     // of all steps
 constexpr double kHeard = 0.04;          // seconds: less is not noticed between face and sound
-constexpr double kSurely = 0.02;         // of all steps: readings that differ less are equally good
+constexpr double kMostTimecodeFrames = 255;    // a second; beyond it, a field counts milliseconds
+constexpr double kUsualFrames = 120;           // a second
+constexpr double kSlowedDown = 1.001;          // seconds of drop-frame timecodes: 30 are 29.97
 constexpr double kMillisecondsASecond = 1000;  // as a timecode rate
 constexpr int kTimecodeRates[] = {24, 25, 30, 48, 50, 60, 100, 120};
-constexpr fap::Rate kRates[] = {{24, 1},       {25, 1}, {30, 1}, {50, 1}, {60, 1},  {30000, 1001},
-                                {60000, 1001}, {10, 1}, {12, 1}, {25, 2}, {15, 1},  {20, 1},
-                                {24000, 1001}, {48, 1}, {72, 1}, {90, 1}, {100, 1}, {120, 1}};
+constexpr fap::Rate kRates[] = {{24, 1},       {25, 1},       {30, 1},       {50, 1},       {60, 1},
+                                {30000, 1001}, {60000, 1001}, {10, 1},       {12, 1},       {25, 2},
+                                {15, 1},       {20, 1},       {24000, 1001}, {48, 1},       {72, 1},
+                                {90, 1},       {100, 1},      {120, 1},      {120000, 1001}};
 
 std::optional<double> plain_number(std::string_view text) {
   if (text.empty() || text.find_first_not_of("0123456789.") != std::string_view::npos) {
@@ -63,6 +66,9 @@ int timecode_rate(double last_frame, double about = 0) {
   return best != 0 ? best : int(last_frame) + 1;
 }
 
+// Drop-frame timecodes are those of NTSC.
+int drop_frame_rate(double last_frame) { return last_frame < 30 ? 30 : last_frame < 60 ? 60 : 120; }
+
 // The whole number that timecodes of an NTSC rate count to.
 double counted_rate(fap::Rate rate) {
   const double exact = rate.frames_per_second();
@@ -84,6 +90,7 @@ int tell_timecode_rate(const std::vector<RowTime>& times, std::optional<fap::Rat
                        std::vector<std::string>& warnings) {
   double last = 0;
   for (const RowTime& time : times) last = std::max(last, time.frames.value_or(0));
+  if (times.front().drop) return drop_frame_rate(last);
   // The last frame number of a whole second gives the rate.
   if (times.front().seconds != times.back().seconds) {
     // Slower than any camera, and no row missing: the second ends where it ends.
@@ -115,16 +122,21 @@ std::vector<double> seconds_of(const std::vector<RowTime>& times, int per_second
   std::vector<double> seconds;
   double midnight = 0;
   for (const RowTime& time : times) {
-    double now = time.seconds + midnight;
+    double now = time.seconds;
+    double day = kDay;
     if (time.frames) {
       const double whole = std::floor(*time.frames);
       now += reading == Reading::frames         ? *time.frames / per_second
              : reading == Reading::milliseconds ? *time.frames / kMillisecondsASecond
                                                 : *time.frames - whole;
-      if (time.drop) now -= dropped_labels(time.seconds, per_second) / per_second;
+      if (time.drop) {
+        now = (now - dropped_labels(time.seconds, per_second) / per_second) * kSlowedDown;
+        day = (day - dropped_labels(day, per_second) / per_second) * kSlowedDown;
+      }
+      now += midnight;
       if (!seconds.empty() && seconds.back() - now > kDay / 2) {
-        midnight += kDay;
-        now += kDay;
+        midnight += day;
+        now += day;
       }
     }
     seconds.push_back(now);
@@ -148,14 +160,21 @@ double unevenness(const std::vector<double>& seconds) {
 
 Reading tell_reading(const std::vector<RowTime>& times) {
   const auto all = [&](auto holds) { return std::all_of(times.begin(), times.end(), holds); };
-  // No camera has frames with three digits.
-  if (all([](const RowTime& time) { return time.digits >= 3; })) return Reading::milliseconds;
-  if (!all([](const RowTime& time) { return time.fraction; })) return Reading::frames;
   double last = 0;
   for (const RowTime& time : times) last = std::max(last, time.frames.value_or(0));
-  const double by_frames = unevenness(seconds_of(times, timecode_rate(last), Reading::frames));
+  if (last >= kMostTimecodeFrames) return Reading::milliseconds;
+  const int per_second = times.front().drop ? drop_frame_rate(last) : timecode_rate(last);
+  const double by_frames = unevenness(seconds_of(times, per_second, Reading::frames));
+  if (last > kUsualFrames || all([](const RowTime& time) { return time.digits >= 3; })) {
+    // Milliseconds, or the frames of a camera that is faster than 100 a second.
+    const std::vector<double> seconds = seconds_of(times, 1, Reading::milliseconds);
+    const std::vector<double> steps = steps_of(seconds);
+    const bool too_fast = !steps.empty() && median(steps) < kShortestStep;
+    return too_fast || by_frames < unevenness(seconds) ? Reading::frames : Reading::milliseconds;
+  }
+  if (!all([](const RowTime& time) { return time.fraction; })) return Reading::frames;
   const double by_fraction = unevenness(seconds_of(times, 1, Reading::fraction));
-  return by_fraction < by_frames - kSurely ? Reading::fraction : Reading::frames;
+  return by_fraction < by_frames / 2 ? Reading::fraction : Reading::frames;
 }
 
 // How many seconds a time counts: trackers write milliseconds (MediaPipe), micro- and nanoseconds.
@@ -164,9 +183,9 @@ double tell_unit(const std::vector<double>& seconds, std::vector<std::string>& w
   if (steps.size() < kStepsToTell) return 1;
   const double step = median(steps);
   if (!(step > kLongestStep)) return 1;
-  constexpr std::pair<double, const char*> kUnits[] = {
+  constexpr std::pair<double, const char*> kTimeUnits[] = {
       {1e-3, "milliseconds"}, {1e-6, "microseconds"}, {1e-9, "nanoseconds"}};
-  for (const auto& [unit, name] : kUnits) {
+  for (const auto& [unit, name] : kTimeUnits) {
     if (step * unit < kShortestStep || step * unit > kUsualStep) continue;
     warnings.push_back("the times are " + plain(step) + " apart and taken as " + name);
     return unit;
@@ -271,34 +290,80 @@ std::int64_t next_number(std::int64_t previous, double position) {
   return std::max(nearest, std::max<std::int64_t>(previous, 0));
 }
 
+// Takes "2026-11-27T" or "2026-11-27 " off the front and a time zone off the end: the seconds of
+// the day since 1970.
+double take_date(std::string& text) {
+  constexpr std::size_t kDate = 10;
+  if (text.size() <= kDate || (text[4] != '-' && text[4] != '/') || text[7] != text[4]) return 0;
+  if (text[kDate] != 'T' && text[kDate] != ' ') return 0;
+  std::array<double, 3> date{};
+  for (const auto& [at, size, which] : {std::array{0, 4, 0}, {5, 2, 1}, {8, 2, 2}}) {
+    const auto number =
+        plain_number(std::string_view(text).substr(std::size_t(at), std::size_t(size)));
+    if (!number) return 0;
+    date[std::size_t(which)] = *number;
+  }
+  text.erase(0, kDate + 1);
+  if (text.ends_with('Z')) text.pop_back();
+  text.resize(std::min(text.size(), text.find_first_of("+-")));
+  // Days from the civil date, with years that begin in March.
+  const double year = date[0] - (date[1] <= 2 ? 1 : 0);
+  const double month = date[1] + (date[1] <= 2 ? 9 : -3);
+  const double days = std::floor(365.25 * year) - std::floor(year / 100) + std::floor(year / 400) +
+                      std::floor((153 * month + 2) / 5) + date[2] - 719469;
+  return days * kDay;
+}
+
+// "1.5", "1.5s", "1500 ms".
+std::optional<double> seconds_with_unit(std::string_view text) {
+  double unit = 1;
+  if (text.ends_with("ms")) {
+    unit = 0.001;
+    text.remove_suffix(2);
+  } else if (text.size() > 1 && text.ends_with('s')) {
+    text.remove_suffix(1);
+  }
+  const auto number = dam::parse_number(text);
+  return number ? std::optional(*number * unit) : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<RowTime> parse_time(std::string_view field, std::size_t line) {
-  std::string text(field);
+  std::string text(dam::trimmed(field));
+  const double date = take_date(text);
   // Drop-frame timecodes have a semicolon before the frames.
   const std::size_t semicolon = text.rfind(';');
   const bool drop = semicolon != std::string::npos && text.find(':') < semicolon;
   if (drop) text[semicolon] = ':';
   const auto parts = dam::split_fields(text, ':');
   if (parts.size() == 1) {
-    const auto seconds = dam::parse_number(field);
+    const auto seconds = seconds_with_unit(text);
     if (!seconds || !std::isfinite(*seconds)) return std::nullopt;
     return RowTime{*seconds, std::nullopt, line};
   }
-  if (parts.size() != 3 && parts.size() != 4) return std::nullopt;
+  if (parts.size() < 2 || parts.size() > 4) return std::nullopt;
   std::array<double, 4> value{};
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    const auto number = plain_number(parts[i]);
+    std::string part(parts[i]);
+    // "00:00:01,040" has a decimal comma.
+    if (i + 1 == parts.size()) std::replace(part.begin(), part.end(), ',', '.');
+    const auto number = plain_number(part);
     const bool whole = number && *number == std::floor(*number);
     if (!number || *number >= 1000 || (i + 1 < parts.size() && !whole)) return std::nullopt;
     value[i] = *number;
   }
-  RowTime time{value[0] * 3600 + value[1] * 60 + value[2], std::nullopt, line};
+  const std::size_t point = parts.back().find_first_of(".,");
+  const bool fraction = point != std::string_view::npos && point + 1 < parts.back().size();
+  if (parts.size() == 2) {  // mm:ss.fff; without the point, it may be anything
+    if (!fraction) return std::nullopt;
+    return RowTime{date + value[0] * 60 + value[1], std::nullopt, line};
+  }
+  RowTime time{date + value[0] * 3600 + value[1] * 60 + value[2], std::nullopt, line};
   if (parts.size() < 4) return time;
-  const std::size_t point = parts[3].find('.');
   time.frames = value[3];
   time.digits = int(std::min(point, parts[3].size()));
-  time.fraction = point != std::string_view::npos && point + 1 < parts[3].size();
+  time.fraction = fraction;
   time.drop = drop;
   return time;
 }

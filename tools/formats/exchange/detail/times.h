@@ -23,8 +23,9 @@ struct RowTime {
   bool drop = false;             ///< hh:mm:ss;ff: labels are left out at the start of minutes
 };
 
-/// "hh:mm:ss:ff", "hh:mm:ss;ff", "hh:mm:ss:ff.fff", "hh:mm:ss:mmm", "hh:mm:ss.mmm" or seconds;
-/// nothing if it is none of these.
+/// "hh:mm:ss:ff", "hh:mm:ss;ff", "hh:mm:ss:ff.fff", "hh:mm:ss:mmm", "hh:mm:ss.mmm", "mm:ss.mmm" (or
+/// with a comma before mmm), these behind a date ("2026-11-27T", with or without a time zone), or
+/// seconds ("1.5", "1.5s", "1500ms"); nothing if it is none of these.
 std::optional<RowTime> parse_time(std::string_view field, std::size_t line);
 
 /// Where the rows of a table stand in the clip.
@@ -41,12 +42,13 @@ struct PlacedRows {
 /// Places rows by their times; the rate, if it is not given, is told from them: see arkit.h.
 /// What the last field of a timecode means is told by which reading makes the steps even:
 /// frames, and fractions of a frame ("00:12.500" is frame 12.5); frames, and milliseconds of the
-/// second behind a point ("12.200" is 0.2 s); milliseconds of the second ("200", "200.000"). Rows
-/// in even steps are never dropped, and get consecutive numbers as long as they stay within 40 ms.
-/// Times whose steps make sense as milli-, micro- or nanoseconds only (more than 3 "seconds" apart,
-/// four times at least) are taken so. Timecodes that pass midnight go on. Says in `warnings` how
-/// many rows were left out, and what was assumed. `times` is not empty. Errors: out_of_range (times
-/// that go back or span more than 10 million frames); invalid_argument (a rate that is not valid;
+/// second behind a point ("12.200" is 0.2 s); milliseconds of the second ("200", "200.000"). A
+/// field of drop-frame timecodes counts frames of 1001/30000 s (or half of that). Rows in even
+/// steps are never dropped, and get consecutive numbers as long as they stay within 40 ms. Times
+/// whose steps make sense as milli-, micro- or nanoseconds only (more than 3 "seconds" apart, four
+/// times at least) are taken so. Timecodes that pass midnight go on. Says in `warnings` how many
+/// rows were left out, and what was assumed. `times` is not empty. Errors: out_of_range (times that
+/// go back or span more than 10 million frames); invalid_argument (a rate that is not valid;
 /// without one, a single time, equal times, or steps beyond 1/16 to 255 frames a second).
 Result<PlacedRows> place_rows(const std::vector<RowTime>& times, std::optional<fap::Rate> rate,
                               std::vector<std::string>& warnings);
