@@ -148,11 +148,11 @@ void use_tabs(std::vector<std::string>& lines, std::size_t header) {
 }  // namespace
 
 bool is_missing(std::string_view field) {
-  constexpr std::string_view kNothing[] = {"",          "nan", "-nan", "+nan", "nan(ind)",
+  constexpr std::string_view kMissing[] = {"",          "nan", "-nan", "+nan", "nan(ind)",
                                            "-nan(ind)", "na",  "n/a",  "#n/a", "null",
                                            "none",      "nil", "-",    "--"};
   const std::string lower = lower_case(dam::trimmed(field));
-  return std::find(std::begin(kNothing), std::end(kNothing), lower) != std::end(kNothing);
+  return std::find(std::begin(kMissing), std::end(kMissing), lower) != std::end(kMissing);
 }
 
 std::string plain_table(std::string_view text) {

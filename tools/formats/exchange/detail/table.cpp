@@ -50,23 +50,23 @@ std::string letters_of(std::string_view name) {
 }  // namespace
 
 bool is_time_name(std::string_view name) {
-  constexpr std::string_view kNames[] = {
+  constexpr std::string_view kTimeNames[] = {
       "timecode", "tc",          "time",        "timestamp",   "t",         "elapsed",
       "seconds",  "sec",         "secs",        "pts",         "datetime",  "elapsedtime",
       "ptstime",  "currenttime", "frametime",   "frametimein", "mediatime", "systemtime",
       "unixtime", "ms",          "milliseconds"};
   // Units behind it, as in "time_ms".
-  constexpr std::string_view kUnits[] = {
+  constexpr std::string_view kTimeNameUnits[] = {
       "",   "s",    "sec",          "secs", "seconds", "ms",         "msec", "milliseconds",
       "us", "usec", "microseconds", "ns",   "nsec",    "nanoseconds"};
   const std::string letters = letters_of(name);
-  for (const std::string_view known : kNames) {
+  for (const std::string_view known : kTimeNames) {
     if (!letters.starts_with(known)) continue;
     const std::string_view unit = std::string_view(letters).substr(known.size());
     if (unit.empty()) return true;
     // ("ts", "secs" and "pts" with units are no words.)
-    if (known.size() >= 4 &&
-        std::find(std::begin(kUnits), std::end(kUnits), unit) != std::end(kUnits)) {
+    if (known.size() >= 4 && std::find(std::begin(kTimeNameUnits), std::end(kTimeNameUnits),
+                                       unit) != std::end(kTimeNameUnits)) {
       return true;
     }
   }
@@ -74,11 +74,12 @@ bool is_time_name(std::string_view name) {
 }
 
 bool is_frame_name(std::string_view name) {
-  constexpr std::string_view kNames[] = {"frame",    "framenumber", "frameindex",
-                                         "frameid",  "frameno",     "framenum",
-                                         "frameidx", "framecount",  "framenr"};
+  constexpr std::string_view kFrameNames[] = {"frame",    "framenumber", "frameindex",
+                                              "frameid",  "frameno",     "framenum",
+                                              "frameidx", "framecount",  "framenr"};
   const std::string letters = letters_of(name);
-  return std::find(std::begin(kNames), std::end(kNames), letters) != std::end(kNames);
+  return std::find(std::begin(kFrameNames), std::end(kFrameNames), letters) !=
+         std::end(kFrameNames);
 }
 
 std::string list_of_names(const std::vector<std::string>& names) {
