@@ -44,7 +44,8 @@ fba::LiveOptions coding_of_face(const dam::Model& model, const TalkingFace& face
   coding.rate = rate;
   coding.fap_quant = fap_quant;
   coding.intra_seconds = intra_seconds;
-  coding.faps = face.mask();
+  // All FAPs that occur: those of a mood join, with an intra plane, when it is first shown. At rest
+  // they would cost a third of the stream.
   coding.ranges = ranges_of_face(model, fap_quant, face);
   return coding;
 }

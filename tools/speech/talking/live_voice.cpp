@@ -146,7 +146,6 @@ Result<std::unique_ptr<LiveVoice>> LiveVoice::open(const dam::Model& model,
   FaceOptions still;  // what VoiceDrivenFace moves, and nothing else
   still.synthesis = options.synthesis;
   still.synthesis.tongue = false;
-  still.moods = false;
   Result<TalkingFace> resting = TalkingFace::open(model, still);
   if (!resting) return resting.error();
   VoiceDrivenFaceOptions following{options.synthesis, options.language,

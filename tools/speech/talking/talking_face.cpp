@@ -141,11 +141,8 @@ Result<TalkingFace> TalkingFace::open(const dam::Model& model, const FaceOptions
   }
   if (auto ok = face.begin(silence(), false); !ok) return ok.error();
   face.mask_ = face.clip_.frames.front().mask;
-  if (options.moods) {
-    face.mask_ |= dam::mood_faps();
-    face.mood_ = options.mood;
-    face.moods_ = dam::MoodBlend(options.mood);
-  }
+  face.mood_ = options.mood;
+  face.moods_ = dam::MoodBlend(options.mood);
   return face;
 }
 
@@ -211,7 +208,6 @@ Line TalkingFace::line_from(std::size_t first, const fap::Frame& before) const {
 
 // Moods of a line that begins `start` seconds after the next frame.
 void TalkingFace::plan_moods(const dam::Script& script, double start, const LineMoods& moods) {
-  if (!options_.moods) return;
   const double begin = now() + start;
   const dam::MoodTrack track(moods.mood.value_or(mood_), moods.spans);
   for (const dam::MoodTrack::Part& part : track.parts()) {
@@ -222,7 +218,6 @@ void TalkingFace::plan_moods(const dam::Script& script, double start, const Line
 }
 
 void TalkingFace::set_mood(const dam::Mood& mood) {
-  if (!options_.moods) return;
   mood_ = mood;
   moods_.change(now(), mood);
 }
@@ -236,10 +231,12 @@ void TalkingFace::show_mood(double in_piece, fap::Frame& frame) {
   shares_.teeth = nearer(shares_.teeth, wanted.teeth, kMoodSound * seconds);
   shares_.bite = nearer(shares_.bite, wanted.bite, kMoodSound * seconds);
   shares_.shut = nearer(shares_.shut, wanted.shut, kMoodSound * seconds);
-  frame.mask = mask_;
   moods_.forget(now());
-  if (moods_.neutral()) return;
-  const dam::MoodPose pose = moods_.at(now());
+  const dam::MoodPose pose = moods_.neutral() ? dam::MoodPose() : moods_.at(now());
+  // All that it moves at once: each change of the mask costs an intra plane.
+  for (std::size_t f = fap::kFirstLowLevel; f < pose.fap.size(); ++f)
+    if (pose.fap[f] != 0) mask_.set(f);
+  frame.mask = mask_;
   if (!pose.neutral()) dam::add_mood(pose, shares_, frame);
 }
 

@@ -34,7 +34,6 @@ struct FaceOptions {
   bool idle_motion = false;         ///< blinks, brows, head: see dam/speaking/idle_motion.h
   std::uint64_t seed = 1;           ///< of the idle motion
   dam::Mood mood;                   ///< at the beginning
-  bool moods = true;                ///< frames have the FAPs that moods move; else it has none
 };
 
 /// The moods of a line.
@@ -59,7 +58,7 @@ class TalkingFace {
   /// dam::synthesise() and dam::add_idle_motion().
   static Result<TalkingFace> open(const dam::Model& model, const FaceOptions& options);
 
-  /// The FAPs of every frame.
+  /// The FAPs of every frame so far. A mood that moves others makes them part of all that follow.
   const fap::Mask& mask() const { return mask_; }
   /// Number of the next frame, from 0.
   std::int64_t number() const { return number_; }
