@@ -116,7 +116,7 @@ TEST(Batch, ARowSpeaksOnceWhateverItWrites) {
   spill(dir / "m.tsv", "id\ttext\ttts\toutputs\na\tHello\t" + (dir / "say.sh") + " " +
                            (dir / "voice.wav") +
                            " {wav}\t.livelink.csv .fba .mp4 .tsv export:.visemes.csv\n");
-  succeeds(batch_line(dir / "m.tsv", dir / "out"));
+  succeeds(batch_line(dir / "m.tsv", dir / "out", {"--allow-commands"}));
   EXPECT_EQ(slurp(dir / "say.sh.log"), "said\n");
   EXPECT_EQ(contents(dir / "out").size(), 7U);  // with the index and the report
 }
@@ -201,12 +201,37 @@ TEST(Batch, TellsWhatIsWrongWithAManifest) {
   EXPECT_THAT(said(head + "index\tA\t.tsv\n"), HasSubstr("the name of a file of the batch"));
 }
 
+// A manifest comes from others: it names no programs unless the user says so.
+TEST(Batch, AManifestRunsNoPrograms) {
+  const TempDir dir;
+  spill(dir / "say.sh", "#!/bin/sh\ntouch \"$0.ran\"\n");
+  fs::permissions(dir / "say.sh", fs::perms::owner_all);
+  const std::string say = dir / "say.sh";
+  spill(dir / "m.tsv", "id\ttext\ttts\toutputs\na\tOne\t" + say + "\t.fba\n");
+  spill(dir / "o.tsv", "id\ttext\toptions\toutputs\na\tOne\t--tts=" + say + "\t.fba\n");
+  spill(dir / "o.jsonl",
+        R"({"id": "a", "text": "One", "outputs": ".fba", "options": ["--tts", ")" + say + "\"]}\n");
+  for (const char* name : {"m.tsv", "o.tsv", "o.jsonl"}) {
+    const auto result = animeme(batch_line(dir / name, dir / "out"));
+    EXPECT_NE(result.exit_code, 0) << name;
+    EXPECT_THAT(result.err, HasSubstr("--allow-commands")) << name;
+    EXPECT_FALSE(fs::exists(say + ".ran")) << name;
+    animeme(batch_line(dir / name, dir / "trusted", {"--allow-commands"}));
+    EXPECT_TRUE(fs::remove(say + ".ran")) << name;
+    fs::remove_all(dir / "trusted");
+  }
+  spill(dir / "t.tsv", "id\ttext\toutputs\na\tOne\t.fba\n");
+  animeme(batch_line(dir / "t.tsv", dir / "set", {"--set", "tts=" + say}));
+  EXPECT_TRUE(fs::exists(say + ".ran"));
+}
+
 TEST(Batch, AWorkerThatDiesIsAnErrorOfItsRow) {
   const TempDir dir;
   spill(dir / "m.tsv",
         "id\ttext\ttts\toutputs\na\tOne\t\t.fba\nb\tTwo\tsh -c 'kill -9 $PPID'\t.fba\n"
         "c\tThree\t\t.fba\nd\tFour\t\t.fba\n");
-  const auto now = json_of(batch_line(dir / "m.tsv", dir / "out", {"--jobs", "1"}), 1);
+  const auto now =
+      json_of(batch_line(dir / "m.tsv", dir / "out", {"--jobs", "1", "--allow-commands"}), 1);
   EXPECT_EQ(now["ok"], 3);
   EXPECT_THAT(slurp(dir / "out/index.tsv"), HasSubstr("b\terror\t\t\t0\t\t\tcrashed by signal 9"));
   EXPECT_FALSE(fs::exists(dir / "out/.batch-1-of-1"));

@@ -51,6 +51,32 @@ TEST_F(Voices, OfWordsWithTimesArePartlyGuessed) {
   EXPECT_EQ(json["approximate"], true);
 }
 
+// A line of a chat is no option of the voice.
+TEST_F(Voices, TextsAreNoOptions) {
+  const std::string victim = dir / "victim";
+  std::ofstream(victim) << "precious";
+  std::ofstream(dir / "voice.sh")
+      << "#!/bin/sh\nfor one; do case $one in -w*) echo gone >\"${one#-w}\";; esac; done\ncp " +
+             wav() + " \"$1\"\n";
+  std::filesystem::permissions(dir / "voice.sh", std::filesystem::perms::owner_all);
+  const std::string voice = dir / "voice.sh";
+  const auto speak = [&](const std::string& program, const std::string& text) {
+    return animeme({"speak", "--text=" + text, "--tts", program, "-o", dir / "a.fap"});
+  };
+  for (const std::string place : {"{text}", "{text}."}) {
+    const auto result = speak(voice + " {wav} " + place, "-w" + victim);
+    EXPECT_EQ(result.exit_code, 3) << place;
+    EXPECT_THAT(result.err, HasSubstr("would be an option")) << place;
+    EXPECT_THAT(result.err, HasSubstr("--text=" + place)) << place;
+  }
+  EXPECT_EQ(test::slurp(victim), "precious");
+  // Behind -- and joined to an option it is a text.
+  EXPECT_THAT(speak("sh -c 'echo \"$2\" >&2; exit 1' voice -- {text}", "-5 degrees").err,
+              HasSubstr("it said: -5 degrees"));
+  EXPECT_THAT(speak("sh -c 'echo \"$1\" >&2; exit 1' voice --text={text}", "-5 degrees").err,
+              HasSubstr("it said: --text=-5 degrees"));
+}
+
 TEST_F(Voices, LeaveNothingWhereTheyFail) {
   const auto result = animeme(
       {"speak", "--text", "bah", "--tts", "sh -c 'echo no key >&2; exit 1'", "-o", dir / "a.mp4"});

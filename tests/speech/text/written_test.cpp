@@ -36,6 +36,37 @@ TEST(Written, WhatIsNoDate) {
   EXPECT_EQ(read("30/02/2024"), "30 02 2024");
 }
 
+// Digits that are no number are said one by one, and nothing goes on for ever without a blank.
+TEST(Written, RunsWithoutEndAreParted) {
+  SKIP_WITHOUT_ICU();
+  EXPECT_EQ(read("x 1234567890123456789012345678901 y"),
+            "x 1 2 3 4 5 6 7 8 9 0, 1 2 3 4 5 6 7 8 9 0, 1 2 3 4 5 6 7 8 9 0, 1 y");
+  EXPECT_EQ(read("a card 1234567890123456"), "a card 1234567890123456");
+  const std::string word(90, 'a');
+  EXPECT_EQ(read(word), word);
+  for (const std::string& piece :
+       {std::string("1"), std::string("A."), std::string("a"), std::string("1a"), std::string("-"),
+        std::string("1,"), std::string("é"), std::string("ก"), std::string("('"), std::string("1-"),
+        std::string("a\u0301"), std::string("$1"), std::string("1/"), std::string("_a"),
+        std::string("#"), std::string("a:"), std::string("🙂")}) {
+    std::u32string text;
+    while (text.size() < 5000) text += code_points(piece);
+    const SpokenText spoken = read_written(as_written(text), {"en-us", false, false});
+    EXPECT_LE(spoken.size(), 12 * text.size()) << piece;
+    ASSERT_EQ(spoken.size(), spoken.places.size()) << piece;
+    std::size_t run = 0, longest = 0;
+    for (std::size_t i = 0; i < spoken.size(); ++i) {
+      run = is_blank(spoken.text[i]) ? 0 : run + 1;
+      longest = std::max(longest, run);
+      EXPECT_LE(spoken.places[i].last, text.size());
+      if (i > 0) {
+        EXPECT_LE(spoken.places[i - 1].first, spoken.places[i].first) << piece;
+      }
+    }
+    EXPECT_LE(longest, 250u) << piece;
+  }
+}
+
 TEST(Written, AmountsInTheLanguage) {
   SKIP_WITHOUT_ICU();
   EXPECT_EQ(read("$5.20"), "5 dollars and 20 cents");

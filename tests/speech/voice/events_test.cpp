@@ -109,5 +109,21 @@ TEST(VoiceChoice, NamesTheNearest) {
   EXPECT_FALSE(choose_voices(std::string(100000, '-'), lists));
 }
 
+TEST(VoiceChoice, EndsWithoutEnglish) {
+  VoiceLists lists;
+  lists.voices = {{"German", "de", "gmw/de", {}}};
+  for (const char* wanted : {"en", "en-us", "en_US", "en-gb-x", "en-"}) {
+    const auto none = choose_voices(wanted, lists);
+    ASSERT_FALSE(none) << wanted;
+    EXPECT_NE(none.error().message.find("nearest are de (German)"), std::string::npos) << wanted;
+  }
+  lists.voices = {{"English (Great Britain)", "en-gb", "gmw/en", {"en"}}};
+  EXPECT_EQ(choose_voices("en", lists)->voices.front().identifier, "gmw/en");
+  lists.voices.clear();
+  const auto none = choose_voices("en", lists);
+  ASSERT_FALSE(none);
+  EXPECT_NE(none.error().message.find("espeak-ng-data"), std::string::npos);
+}
+
 }  // namespace events_test
 }  // namespace animeme::voice

@@ -328,7 +328,8 @@ class Run {
 Result<Ending> run_batch(const Settings& given, const Watch& watch) {
   Settings settings = given;
   const std::string out = settings.shared.out;
-  Result<Manifest> manifest = Manifest::open(settings.manifest, settings.form, settings.defaults);
+  Result<Manifest> manifest =
+      Manifest::open(settings.manifest, settings.form, settings.defaults, settings.allow_commands);
   if (!manifest) return manifest.error();
   std::vector<std::string> problems;
   Result<std::uint64_t> rows = check_manifest(*manifest, settings.shard, settings.shards, problems);

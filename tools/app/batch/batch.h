@@ -24,6 +24,7 @@ struct Settings {
   Shared shared;                                              ///< its `stage` is set by run_batch()
   std::size_t jobs = 1;                                       ///< workers
   bool resume = false;                                        ///< skip finished rows
+  bool allow_commands = false;                                ///< rows may name programs to run
   int shard = 1;                                              ///< from 1
   int shards = 1;                                             ///< number of shards
 };

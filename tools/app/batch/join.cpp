@@ -71,7 +71,8 @@ Result<void> check_outputs(const Index& index, Manifest& manifest, const Setting
 
 Result<Totals> join_batch(const Settings& settings) {
   const std::string& out = settings.shared.out;
-  Result<Manifest> manifest = Manifest::open(settings.manifest, settings.form, settings.defaults);
+  Result<Manifest> manifest =
+      Manifest::open(settings.manifest, settings.form, settings.defaults, settings.allow_commands);
   if (!manifest) return manifest.error();
   std::vector<std::string> problems;
   if (auto rows = check_manifest(*manifest, 1, 1, problems); !rows) return rows.error();

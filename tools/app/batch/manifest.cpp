@@ -7,6 +7,7 @@
 
 #include "tools/formats/common/json.h"
 #include "tools/formats/files/files.h"
+#include "tools/formats/programs/command_template.h"
 
 namespace animeme::batch {
 
@@ -70,6 +71,18 @@ Result<std::string> json_value(const Json& value, std::int64_t line, const std::
   return text;
 }
 
+// The column by which a row has a program run; empty: none.
+std::string column_with_command(const Row& row) {
+  for (const auto& [column, value] : row.values) {
+    if (column == "tts") return column;
+    if (!column.ends_with("options")) continue;
+    const Result<std::vector<std::string>> words = tools::split_arguments(value);
+    const auto is_tts = [](const std::string& word) { return word.starts_with("--tts"); };
+    if (words && std::any_of(words->begin(), words->end(), is_tts)) return column;
+  }
+  return {};
+}
+
 }  // namespace
 
 std::string_view Row::at(std::string_view column) const {
@@ -90,8 +103,10 @@ Form form_of(const std::string& path) {
 }
 
 Result<Manifest> Manifest::open(const std::string& path, Form form,
-                                std::vector<std::pair<std::string, std::string>> defaults) {
+                                std::vector<std::pair<std::string, std::string>> defaults,
+                                bool allow_commands) {
   Manifest manifest;
+  manifest.allow_commands_ = allow_commands;
   manifest.name_ = path == "-" ? "standard input" : path;
   manifest.form_ = form;
   manifest.defaults_ = std::move(defaults);
@@ -229,6 +244,13 @@ Result<std::optional<Row>> Manifest::next() {
                                           : list_row(line);
   if (!row) return row.error().in_file(name_);
   row->line = line_;
+  if (const std::string column = column_with_command(*row); !allow_commands_ && !column.empty()) {
+    return bad("column " + column +
+                   " runs a program; if you trust the manifest add --allow-commands, or name the "
+                   "program on the command line: --set tts=\"COMMAND\"",
+               line_)
+        .in_file(name_);
+  }
   for (const auto& [column, value] : defaults_) row->fill(column, value);
   std::size_t at = 0;
   for (std::size_t i = 0; i < header_.size() && header_[i] != "id"; ++i)
@@ -244,7 +266,7 @@ std::string problem_of_id(std::string_view id) {
   if (id.empty()) return "the row has no id";
   if (id.size() > kMostId) return "the id is longer than 200 bytes";
   for (const char c : id) {
-    if (static_cast<unsigned char>(c) < 32 || c == 127 || c == '\\') {
+    if (static_cast<unsigned char>(c) < 32 || c == 127 || c == '\\' || c == '|') {
       return "the id has a character that names of files should not have";
     }
   }

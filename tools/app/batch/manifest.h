@@ -60,12 +60,15 @@ Form form_of(const std::string& path);
 class Manifest {
  public:
   /// "-" is standard input, which is copied to a file without a name, so that it can be read twice.
-  /// `defaults`: values for columns that a row leaves empty. Errors, with file, line and column:
-  /// not_found, io, syntax (an unknown or duplicate column; no column id).
+  /// `defaults`: values for columns that a row leaves empty. `allow_commands`: whether rows may
+  /// name programs to run (column tts, --tts in options); a manifest is data, which others write.
+  /// Errors, with file, line and column: not_found, io, syntax (an unknown or duplicate column; no
+  /// column id).
   static Result<Manifest> open(const std::string& path, Form form,
-                               std::vector<std::pair<std::string, std::string>> defaults);
-  /// The next row; nullopt after the last. Errors: syntax, for this row only; the next call
-  /// continues.
+                               std::vector<std::pair<std::string, std::string>> defaults,
+                               bool allow_commands = false);
+  /// The next row; nullopt after the last. Errors: syntax (also of a row that names a program,
+  /// unless these are allowed), for this row only; the next call continues.
   Result<std::optional<Row>> next();
   /// Restarts at the first row. Errors: io, syntax.
   Result<void> rewind();
@@ -87,6 +90,7 @@ class Manifest {
   std::vector<std::pair<std::string, std::string>> defaults_;
   std::vector<std::string> header_;
   std::int64_t line_ = 0;
+  bool allow_commands_ = false;
 };
 
 /// Checks an id as a file name below a folder; returns a sentence, or empty if it is valid.

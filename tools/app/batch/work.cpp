@@ -181,7 +181,9 @@ Result<void> run_hook(const std::string& command, const char* what, const std::s
   if (!cut) return cut.error();
   const tools::Place places[] = {{"uri", uri}, {"file", file}};
   tools::ChildJob job;
-  job.arguments = tools::fill_in(*cut, places);
+  Result<std::vector<std::string>> arguments = tools::fill_in(*cut, places);
+  if (!arguments) return arguments.error();
+  job.arguments = std::move(*arguments);
   job.err = errors;
   job.most_bytes = std::uint64_t(4) << 30;
   tools::ProgramRun run;

@@ -232,8 +232,13 @@ ChildJob job_for(const SuiteCase& one, const RunFiles& files, const RunOptions& 
   job.out = files.out;
   job.err = files.err;
   if (options.command) {
-    const std::string in = files.stream, out = files.face, bap = files.body;
-    job.arguments = fill_in(*options.command, {{{"in", in}, {"out", out}, {"bap", bap}}});
+    // A folder whose name begins with - would be an option.
+    const auto file = [](const std::string& path) {
+      return path.starts_with("-") ? "./" + path : path;
+    };
+    const std::string in = file(files.stream), out = file(files.face), bap = file(files.body);
+    auto arguments = fill_in(*options.command, {{{"in", in}, {"out", out}, {"bap", bap}}});
+    if (arguments) job.arguments = std::move(*arguments);
   } else {
     job.work = [&one, files, encode = options.encode] { return run_own(one, files, encode); };
   }

@@ -137,7 +137,8 @@ std::string take(const BatchOptions& given, batch::Settings& settings) {
 }
 
 Result<int> check(const batch::Settings& settings) {
-  auto manifest = batch::Manifest::open(settings.manifest, settings.form, settings.defaults);
+  auto manifest = batch::Manifest::open(settings.manifest, settings.form, settings.defaults,
+                                        settings.allow_commands);
   if (!manifest) return manifest.error();
   std::vector<std::string> problems;
   const auto rows = batch::check_manifest(*manifest, settings.shard, settings.shards, problems);
@@ -218,6 +219,8 @@ void add_options(OptionTable& cli, BatchOptions& options) {
   cli.add("--join", options.join,
           "Check that all shards in the folder are complete, and merge their indexes");
   cli.add("--check", options.check, "Only check the manifest");
+  cli.add("--allow-commands", settings.allow_commands,
+          "Let rows of the manifest name programs to run: column tts, --tts in options");
   cli.add("--fetch", settings.shared.fetch,
           "Command that downloads inputs whose names contain ://, such as \"rclone copyto "
           "{uri} {file}\"")

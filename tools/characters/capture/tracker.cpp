@@ -99,7 +99,9 @@ Result<std::string> Tracker::run(const std::string& video, double seconds,
   ChildJob job;
   // A name that begins with - would be an option.
   const std::string in = video.starts_with("-") ? "./" + video : video;
-  job.arguments = fill_in(command_, {{{"in", in}, {"out", out}}});
+  Result<std::vector<std::string>> arguments = fill_in(command_, {{{"in", in}, {"out", out}}});
+  if (!arguments) return arguments.error();
+  job.arguments = std::move(*arguments);
   job.out = command_.names("out") ? (*scratch)->file("said.out") : out;
   job.err = (*scratch)->file("said");
   job.most_bytes = kMostTable;

@@ -31,6 +31,15 @@ bool is_found(const std::string& program) {
   }
 }
 
+Error would_be_option(const std::string& program, const std::string& argument,
+                      const std::string& filled) {
+  constexpr std::size_t kShown = 30;
+  const std::string shown = filled.size() > kShown ? filled.substr(0, kShown) + "..." : filled;
+  return bad("\"" + shown + "\" begins with - and would be an option of " + program +
+             ": in the command, write -- before " + argument + " or join it to an option (--text=" +
+             argument + "), or read it from a file or from standard input");
+}
+
 }  // namespace
 
 Result<std::vector<std::string>> split_arguments(std::string_view line) {
@@ -78,9 +87,12 @@ bool CommandTemplate::names(std::string_view place) const {
                      [&](const std::string& one) { return one.find(braced) != std::string::npos; });
 }
 
-std::vector<std::string> fill_in(const CommandTemplate& command, std::span<const Place> places) {
+Result<std::vector<std::string>> fill_in(const CommandTemplate& command,
+                                         std::span<const Place> places) {
   std::vector<std::string> result;
+  bool options_end = false;
   for (const std::string& argument : command.arguments) {
+    options_end = options_end || argument == "--";
     std::string filled;
     for (std::size_t i = 0; i < argument.size();) {
       const auto here = [&](const Place& place) {
@@ -95,6 +107,10 @@ std::vector<std::string> fill_in(const CommandTemplate& command, std::span<const
         filled += place->text;
         i += place->name.size() + 2;
       }
+    }
+    // An option of the command's own begins with its own "-".
+    if (filled.starts_with('-') && !argument.starts_with('-') && !options_end) {
+      return would_be_option(command.arguments.front(), argument, filled);
     }
     result.push_back(std::move(filled));
   }

@@ -35,7 +35,11 @@ Result<std::vector<std::string>> split_arguments(std::string_view line);
 /// or a program that is not found: that file if its name has a /, else in PATH).
 Result<CommandTemplate> parse_command(std::string_view line);
 
-/// The arguments with placeholders replaced; other braces are unchanged.
-std::vector<std::string> fill_in(const CommandTemplate& command, std::span<const Place> places);
+/// The arguments with placeholders replaced; other braces are unchanged. A text that begins with
+/// "-" would be an option of the program, which the author of the text would choose, not that of
+/// the command: it is refused where a placeholder begins an argument, unless an argument "--" is
+/// before it. Errors: invalid_argument.
+Result<std::vector<std::string>> fill_in(const CommandTemplate& command,
+                                         std::span<const Place> places);
 
 }  // namespace animeme::tools

@@ -45,11 +45,14 @@ Result<TimedSpeech> run_voice_command(const std::string& text, const VoiceComman
   const bool sound_in_file = command->names("wav");
   const bool times_in_file = command->names("script");
   tools::ChildJob job;
-  job.arguments = tools::fill_in(*command, {{{"text", text},
-                                             {"text_file", text_file},
-                                             {"wav", wav},
-                                             {"script", times},
-                                             {"lang", voice.input.language}}});
+  Result<std::vector<std::string>> arguments =
+      tools::fill_in(*command, {{{"text", text},
+                                 {"text_file", text_file},
+                                 {"wav", wav},
+                                 {"script", times},
+                                 {"lang", voice.input.language}}});
+  if (!arguments) return arguments.error();
+  job.arguments = std::move(*arguments);
   const std::string program = fs::path(job.arguments.front()).filename().string();
   job.in = text_file;
   job.out = out;

@@ -21,6 +21,12 @@ bool one_of(char32_t c, std::u32string_view all) {
   return all.find(c) != std::u32string_view::npos;
 }
 
+// Longer runs of digits are no numbers: a voice says digit by digit, a few in a breath. Of longer
+// runs of anything else a voice makes one word, in time and memory that grow with its square, or
+// crashes (espeak-ng by 200 times "A."). Scripts without blanks (Thai) have sentences in one run.
+constexpr std::size_t kMostDigits = 30, kDigitsInBreath = 10, kLongestRun = 100;
+constexpr std::size_t kLongestUnparted = 250;
+
 constexpr std::u32string_view kClauseSigns = U".!?…‼⁇⁈⁉";
 // Signs that espeak-ng names, and people do not say; between digits some are sums.
 constexpr std::u32string_view kUnsaid = U"*_~|\\^`#<>{}[]=/";
@@ -41,7 +47,10 @@ class WrittenReader {
         amounts_(in_.text, writing.language, writing.spell_digits) {}
 
   SpokenText read() {
-    while (at_ < in_.size()) step();
+    while (at_ < in_.size()) {
+      step();
+      part_run();
+    }
     while (!out_.text.empty() && is_blank(out_.text.back()) && !is_blank(in_.text.back())) drop();
     return std::move(out_);
   }
@@ -73,7 +82,7 @@ class WrittenReader {
   }
 
   void step() {
-    if (address()) return;
+    if (address() || digit_run()) return;
     const char32_t c = at(at_);
     if (starts_amount()) {
       if (const Amount amount = number_or_word(c); amount.end > at_) {
@@ -87,6 +96,38 @@ class WrittenReader {
       leave_out(at_ + 1);
     } else {
       keep(at_ + 1);
+    }
+  }
+
+  bool digit_run() {
+    if (!is_digit(at(at_)) || is_digit(before())) return false;
+    std::size_t end = at_;
+    while (is_digit(at(end))) ++end;
+    if (end - at_ <= kMostDigits) return false;
+    const std::size_t first = at_;
+    if (!out_.text.empty() && !is_blank(out_.text.back())) out_.add(U" ", in_.place(at_, at_ + 1));
+    while (at_ < end) {
+      if (at_ > first) {
+        const bool breath = (at_ - first) % kDigitsInBreath == 0;
+        out_.add(breath ? U", " : U" ", in_.place(at_ - 1, at_));
+      }
+      keep(at_ + 1);
+    }
+    if (!is_blank(at(end))) out_.add(U" ", in_.place(end - 1, end));
+    return true;
+  }
+
+  // A blank in what goes on for too long without one.
+  void part_run() {
+    run_end_ = std::min(run_end_, out_.size());  // blanks are dropped again
+    run_begin_ = std::min(run_begin_, run_end_);
+    for (; run_end_ < out_.size(); ++run_end_) {
+      if (is_blank(out_.text[run_end_])) run_begin_ = run_end_ + 1;
+      const bool unparted = is_unparted(out_.text[run_end_]);
+      if (run_end_ < run_begin_ + (unparted ? kLongestUnparted : kLongestRun)) continue;
+      out_.text.insert(run_end_, 1, U' ');
+      out_.places.insert(out_.places.begin() + std::ptrdiff_t(run_end_), out_.places[run_end_]);
+      run_begin_ = run_end_ + 1;
     }
   }
 
@@ -189,6 +230,7 @@ class WrittenReader {
   AmountReader amounts_;
   SpokenText out_;
   std::size_t at_ = 0;
+  std::size_t run_begin_ = 0, run_end_ = 0;  // in out_, of what has no blank
 };
 
 }  // namespace

@@ -207,6 +207,7 @@ EspeakJob job_of(std::string_view request) {
 }
 
 constexpr unsigned kMostSecondsOfWork = 300;
+constexpr std::int64_t kMostEventsPerSecond = 100;  // words and phones; speech has some 20
 // One takes some 3 MB, starting one as long as a few lines.
 constexpr std::size_t kMostKept = 32;
 
@@ -264,7 +265,7 @@ Result<EspeakResult> run_espeak(const EspeakJob& job) {
   if (!espeak()) return espeak().error();
   EspeakResult result;
   std::string failure;
-  std::size_t total = 0;
+  std::size_t total = 0, events = 0;
   bool too_long = false;
   result.speech.emplace_back();
   const auto receive = [&](std::uint32_t tag, std::string bytes) {
@@ -281,8 +282,10 @@ Result<EspeakResult> run_espeak(const EspeakJob& job) {
       WireEvent wire;
       std::memcpy(&wire, bytes.data(), sizeof wire);
       result.speech.back().events.push_back(unpack(wire));
+      ++events;
     }
-    too_long = std::int64_t(total) > job.max_seconds * std::max(result.sample_rate, 1);
+    too_long = std::int64_t(total) > job.max_seconds * std::max(result.sample_rate, 1) ||
+               std::int64_t(events) > kMostEventsPerSecond * (job.max_seconds + 1);
     return !too_long;
   };
   const auto speak = [&job](Sender& sender) {

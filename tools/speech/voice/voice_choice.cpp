@@ -35,7 +35,8 @@ const VoiceInfo* find_exactly(const std::string& wanted, const std::vector<Voice
 const VoiceInfo* find_voice(std::string wanted, const std::vector<VoiceInfo>& voices) {
   std::replace(wanted.begin(), wanted.end(), '_', '-');
   for (;;) {
-    if (wanted == "en") wanted = "en-us";
+    const VoiceInfo* american = wanted == "en" ? find_exactly("en-us", voices) : nullptr;
+    if (american != nullptr) return american;
     if (const VoiceInfo* voice = find_exactly(wanted, voices)) return voice;
     const std::size_t dash = wanted.rfind('-');  // "de-at": try "de"
     if (dash == std::string::npos) return nullptr;
@@ -73,6 +74,10 @@ Result<ChosenVoice> choose_voice(std::string_view language, std::string_view var
                                  const VoiceLists& lists) {
   const std::string base = lower_case(language.substr(0, 100));
   const VoiceInfo* voice = find_voice(base, lists.voices);
+  if (lists.voices.empty()) {
+    return make_error(Code::not_found,
+                      "espeak-ng has no voices; install the Debian package espeak-ng-data again");
+  }
   if (voice == nullptr) {
     return make_error(Code::not_found, "no voice \"" + base + "\"; the nearest are " +
                                            nearest(base, lists.voices) +

@@ -109,7 +109,10 @@ Result<text::Speakers> find_speakers(const VoiceOptions& options, std::u32string
     auto found = language.empty() ? std::nullopt : speakers.find(language);
     if (found && speakers.list.empty()) speakers.list.push_back(*std::move(found));
   }
-  if (speakers.list.empty()) speakers.list.push_back(*speakers.find("en"));
+  if (!speakers.list.empty()) return speakers;
+  const auto english = choose_voice("en", {}, *lists);
+  if (!english) return english.error();
+  speakers.list.push_back(speaker_of(*english));
   return speakers;
 }
 

@@ -18,6 +18,7 @@ struct Chunk {
   bool new_line = false;            // before it
 };
 
+constexpr std::size_t kLongest = 64;   // of a word; longer ones end where the voice begins another
 constexpr std::size_t kMostSigns = 3;  // between the place of an event and its word
 
 bool is_passed_over(char32_t c) {
@@ -36,6 +37,13 @@ bool opens(char32_t c) {
 
 bool is_blank(char32_t c) { return text::is_blank(c) || c == 0x3000; }
 
+// How many characters without a blank there are in front of a place, at most kLongest.
+std::size_t run_before(const std::u32string& source, std::size_t at) {
+  std::size_t count = 0;
+  while (count < kLongest && count < at && !is_blank(source[at - 1 - count])) ++count;
+  return count;
+}
+
 // Where the voice begins a word that no blank precedes.
 std::set<std::size_t> unspaced_starts(const std::vector<text::Place>& places,
                                       const std::u32string& source) {
@@ -43,7 +51,8 @@ std::set<std::size_t> unspaced_starts(const std::vector<text::Place>& places,
   for (const text::Place& place : places) {
     std::size_t at = place.first;
     if (place.last <= place.first || at == 0 || at >= source.size()) continue;
-    if (!dam::is_unspaced(source[at]) && !dam::is_unspaced(source[at - 1])) continue;
+    const bool parted = dam::is_unspaced(source[at]) || dam::is_unspaced(source[at - 1]);
+    if (!parted && run_before(source, at) < kLongest) continue;
     if (is_passed_over(source[at]) && !opens(source[at])) continue;
     while (at > 0 && opens(source[at - 1])) --at;
     starts.insert(at);

@@ -3,6 +3,8 @@
 #include <animeme/programs/run_program.h>
 #include <animeme/programs/scratch_folder.h>
 
+#include <utility>
+
 int main() {
   namespace tools = animeme::tools;
   const auto command = tools::parse_command("sh -c 'echo {what} >&2; exit 3'");
@@ -10,7 +12,9 @@ int main() {
   if (!command || !folder) return 1;
   const tools::Place what{"what", "nothing"};
   tools::ChildJob job;
-  job.arguments = tools::fill_in(*command, {&what, 1});
+  auto arguments = tools::fill_in(*command, {&what, 1});
+  if (!arguments) return 1;
+  job.arguments = std::move(*arguments);
   job.err = (*folder)->file("err");
   const auto done = tools::run_program(job, {});
   return !done && done.error().message.ends_with("exit code 3; it said: nothing") ? 0 : 1;
