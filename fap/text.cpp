@@ -17,15 +17,6 @@ using detail::TextScanner;
 
 constexpr std::size_t kFrameBytes = 2 * kFapCount + 2;  // shortest text of a frame
 
-void merge(Frame& into, const Frame& later) {
-  into.mask |= later.mask;
-  if (later.mask[1]) into.viseme = later.viseme;
-  if (later.mask[2]) into.expression = later.expression;
-  for (std::size_t fap = kFirstLowLevel; fap <= kFapCount; ++fap) {
-    if (later.mask[fap]) into.value[fap] = later.value[fap];
-  }
-}
-
 Result<Sequence> read(std::string_view text, const ReadTextOptions& options, TextNotes& notes) {
   if (!options.default_rate.valid()) {
     return make_error(Code::invalid_argument, "the default frame rate has to be positive");
@@ -47,8 +38,8 @@ Result<Sequence> read(std::string_view text, const ReadTextOptions& options, Tex
     lines.push_back(*line);
   }
   detail::check_count(*header, sequence.frames.size(), notes);
-  if (auto error =
-          detail::order_frames(sequence.frames, lines, options.keep_numbers, notes, merge)) {
+  if (auto error = detail::order_frames(sequence.frames, lines, options.keep_numbers, notes,
+                                        detail::merge_frames)) {
     return std::move(*error);
   }
   return sequence;

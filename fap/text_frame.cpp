@@ -95,4 +95,13 @@ Result<std::int64_t> read_frame(TextScanner& scanner, TextNotes& notes, Frame& f
   return FrameReader(scanner, notes).read(frame);
 }
 
+void merge_frames(Frame& into, const Frame& later) {
+  into.mask |= later.mask;
+  if (later.mask[1]) into.viseme = later.viseme;
+  if (later.mask[2]) into.expression = later.expression;
+  for (std::size_t fap = kFirstLowLevel; fap <= kFapCount; ++fap) {
+    if (later.mask[fap]) into.value[fap] = later.value[fap];
+  }
+}
+
 }  // namespace animeme::fap::detail

@@ -14,4 +14,7 @@ namespace animeme::fap::detail {
 /// Returns the line of the number. Errors: those of read_text().
 Result<std::int64_t> read_frame(TextScanner& scanner, TextNotes& notes, Frame& frame);
 
+/// Frames of one number: what `later` has wins.
+void merge_frames(Frame& into, const Frame& later);
+
 }  // namespace animeme::fap::detail

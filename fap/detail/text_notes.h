@@ -43,11 +43,24 @@ class LineNotes {
   template <class MakeText>
   void add(Kind kind, std::int64_t line, MakeText text) {
     Note& note = notes_[std::size_t(kind)];
+    any_ = true;
     if (note.count++ == 0) {
       note.line = line;
       note.text = text();
     }
   }
+  /// Adds what was noted behind all of this.
+  void add(const LineNotes& later) {
+    for (std::size_t i = 0; i < kKinds; ++i) {
+      if (notes_[i].count == 0) {
+        notes_[i] = later.notes_[i];
+      } else {
+        notes_[i].count += later.notes_[i].count;
+      }
+    }
+    any_ = any_ || later.any_;
+  }
+  bool any() const { return any_; }
 
   /// "line N: ..." in the order of lines.
   std::vector<std::string> lines() const {
@@ -76,6 +89,7 @@ class LineNotes {
     std::string text;
   };
   std::array<Note, kKinds> notes_;
+  bool any_ = false;
 };
 
 /// What the reader had to interpret.

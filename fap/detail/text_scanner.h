@@ -8,6 +8,12 @@
 
 namespace animeme::fap::detail {
 
+/// A place in a text that is read piece by piece: its line, and the bytes before it on that line.
+struct TextPlace {
+  std::int64_t line = 1;
+  std::int64_t before = 0;
+};
+
 /// Tokens are separated by blanks and tabs, lines end with LF, CR LF or CR. A token that starts
 /// with '#' begins a comment that runs to the end of its line. All steps are linear in the text
 /// passed over; nothing is allocated.
@@ -15,12 +21,19 @@ class TextScanner {
  public:
   explicit TextScanner(std::string_view text)
       : at_(text.data()), end_(text.data() + text.size()), line_begin_(at_) {}
+  /// A piece of a text that begins at `place`. `end_seen` becomes true as soon as a step, of this
+  /// scanner or of a copy, depends on the piece ending where it does.
+  TextScanner(std::string_view piece, TextPlace place, bool& end_seen) : TextScanner(piece) {
+    line_ = place.line;
+    before_ = place.before;
+    end_seen_ = &end_seen;
+  }
 
   /// Goes to the next token, over blanks, comments and line ends. False: the text is over.
   bool to_content() {
     for (;;) {
       skip_blanks();
-      if (at_ == end_) return false;
+      if (at_end()) return false;
       if (*at_ == '#') {
         skip_line();
       } else if (is_line_end(*at_)) {
@@ -34,9 +47,9 @@ class TextScanner {
   /// Reads the next token of this line. Empty: the line (or the text) has no more.
   std::string_view token() {
     skip_blanks();
-    if (at_ == end_ || is_line_end(*at_) || *at_ == '#') return {};
+    if (at_end() || is_line_end(*at_) || *at_ == '#') return {};
     const char* begin = at_;
-    while (at_ != end_ && !is_blank(*at_) && !is_line_end(*at_)) ++at_;
+    while (!at_end() && !is_blank(*at_) && !is_line_end(*at_)) ++at_;
     token_begin_ = begin;
     return {begin, std::size_t(at_ - begin)};
   }
@@ -58,24 +71,33 @@ class TextScanner {
 
   std::int64_t line() const { return line_; }
   /// Column of the token read last, from 1.
-  std::int64_t token_column() const { return token_begin_ - line_begin_ + 1; }
+  std::int64_t token_column() const { return token_begin_ - line_begin_ + before_ + 1; }
   /// Column of the next byte, from 1.
-  std::int64_t column() const { return at_ - line_begin_ + 1; }
+  std::int64_t column() const { return at_ - line_begin_ + before_ + 1; }
+  /// Where the next piece begins if this one is read up to here.
+  TextPlace place() const { return {line_, at_ - line_begin_ + before_}; }
+  const char* position() const { return at_; }
 
  private:
   static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
   static bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 
+  bool at_end() const {
+    if (at_ != end_) return false;
+    if (end_seen_ != nullptr) *end_seen_ = true;
+    return true;
+  }
   void skip_blanks() {
-    while (at_ != end_ && is_blank(*at_)) ++at_;
+    while (!at_end() && is_blank(*at_)) ++at_;
   }
   void skip_line() {
-    while (at_ != end_ && !is_line_end(*at_)) ++at_;
+    while (!at_end() && !is_line_end(*at_)) ++at_;
   }
   void pass_line_end() {
     const bool carriage_return = *at_++ == '\r';
-    if (carriage_return && at_ != end_ && *at_ == '\n') ++at_;
+    if (carriage_return && !at_end() && *at_ == '\n') ++at_;
     line_begin_ = at_;
+    before_ = 0;
     ++line_;
   }
 
@@ -84,6 +106,8 @@ class TextScanner {
   const char* line_begin_;
   const char* token_begin_ = line_begin_;
   std::int64_t line_ = 1;
+  std::int64_t before_ = 0;   // bytes of the line before line_begin_
+  bool* end_seen_ = nullptr;  // borrowed; null: nobody asks
 };
 
 /// ASCII letters in lower case, the rest as it is.

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "fap/text.h"
+#include "tests/fap/in_pieces.h"
 #include "tests/fap/make.h"
 
 namespace animeme::fap {
@@ -11,6 +12,7 @@ namespace text_hostile_test {
 void survive(const std::string& text) {
   std::vector<std::string> warnings;
   const Result<Sequence> clip = read_text(text, {}, &warnings);
+  in_pieces::expect_as_whole(text);
   if (!clip) {
     ASSERT_FALSE(clip.error().message.empty());
     ASSERT_GT(clip.error().where.line, 0);

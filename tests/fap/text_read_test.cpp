@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fap/text.h"
+#include "tests/fap/in_pieces.h"
 #include "tests/fap/make.h"
 
 namespace animeme::fap {
@@ -25,6 +26,7 @@ Read read(const std::string& text, const ReadTextOptions& options = {}) {
   Read result;
   Result<Sequence> clip = read_text(text, options, &result.warnings);
   EXPECT_TRUE(clip) << (clip ? "" : clip.error().describe()) << "\n" << text;
+  in_pieces::expect_as_whole(text, options);
   if (clip) result.clip = *std::move(clip);
   return result;
 }
@@ -32,6 +34,7 @@ Read read(const std::string& text, const ReadTextOptions& options = {}) {
 Error error_of(const std::string& text, const ReadTextOptions& options = {}) {
   Result<Sequence> clip = read_text(text, options);
   EXPECT_FALSE(clip) << text;
+  in_pieces::expect_as_whole(text, options);
   return clip ? Error{} : clip.error();
 }
 

@@ -5,6 +5,7 @@
 #include "fap/detail/walk.h"
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/damage.h"
+#include "tools/app/commands/fap_file.h"
 #include "tools/app/commands/plane_file.h"
 #include "tools/formats/inspect/comparison.h"
 
@@ -26,7 +27,7 @@ struct Instant {
   const fba::BodyFrame* body = nullptr;
 };
 
-// One of the two inputs, instant after instant: a stream is decoded on the way.
+// One of the two inputs, instant after instant: a stream is decoded and FAP text read on the way.
 class Side {
  public:
   Result<void> open(const std::string& path) {
@@ -41,6 +42,12 @@ class Side {
         if (auto repaired = file_->repaired(path)) file_ = std::move(*repaired);
       }
       told_ = false;
+    } else if (FapFile::can_read(path)) {
+      Result<FapFile> text = FapFile::open(path);
+      if (!text) return text.error();
+      kind_ = FileKind::fap_text;
+      motion_.face.rate = text->survey().rate;
+      text_.emplace(text->reader());
     } else {
       Result<MotionInput> input = read_motion(path);
       if (!input) return input.error();
@@ -55,7 +62,7 @@ class Side {
   // Good until the next call; null: there is no more, or an error() came.
   const Instant* next() {
     instant_ = {};
-    const bool more = reader_ ? next_of_stream() : next_of_text();
+    const bool more = reader_ ? next_of_stream() : text_ ? next_of_file() : next_of_text();
     if (!more) return nullptr;
     faces_ += instant_.face != nullptr ? 1 : 0;
     bodies_ += instant_.body != nullptr ? 1 : 0;
@@ -90,6 +97,15 @@ class Side {
     return true;
   }
 
+  bool next_of_file() {
+    const Result<const fap::Frame*> frame = text_->next();
+    if (!frame) error_ = Error(frame.error()).in_file(path_);
+    if (!frame || *frame == nullptr) return false;
+    instant_.number = (*frame)->number;
+    instant_.face = *frame;
+    return true;
+  }
+
   bool next_of_text() {
     const auto& faces = motion_.face.frames;
     const auto& bodies = motion_.body.frames;
@@ -108,6 +124,7 @@ class Side {
   MotionInput motion_;
   std::optional<PlaneFile> file_;
   std::optional<PlaneReader> reader_;
+  std::optional<fap::TextReader> text_;
   std::optional<Error> error_;
   fap::Rate rate_;  // of a stream
   Instant instant_;

@@ -9,6 +9,7 @@
 #include "tools/app/commands/edit_options.h"
 #include "tools/app/commands/edit_source.h"
 #include "tools/app/commands/face_text.h"
+#include "tools/app/commands/fap_file.h"
 #include "tools/app/commands/plane_file.h"
 #include "tools/app/commands/report.h"
 #include "tools/formats/common/text.h"
@@ -109,6 +110,20 @@ Result<Decoded> read_piece(const DecodeOptions& options) {
   return decoded;
 }
 
+// FAP text, to write it in another form.
+Result<Decoded> read_fap_file(DecodeOptions& options) {
+  const Result<FapFile> file = FapFile::open(options.input);
+  if (!file) return file.error();
+  options.face.rate = file->survey().rate;
+  options.face.name = file->survey().name;
+  options.face.frames = [file = *file](const TakeFrame& take) {
+    return file.for_each([&](const fap::Frame& frame) { return take(frame, fap::GroupRules{}); });
+  };
+  Decoded decoded;
+  decoded.motion.kind = FileKind::fap_text;
+  return decoded;
+}
+
 Result<Decoded> read(DecodeOptions& options) {
   if (options.span.given()) return read_piece(options);
   if (options.bap.empty() && PlaneFile::can_read(options.input)) {
@@ -117,6 +132,7 @@ Result<Decoded> read(DecodeOptions& options) {
     options.face.name = std::filesystem::path(options.input).stem().string();
     return look_at(file, options);
   }
+  if (options.bap.empty() && FapFile::can_read(options.input)) return read_fap_file(options);
   Result<MotionInput> input = read_motion(options.input);
   if (!input) return input.error();
   Decoded decoded;

@@ -3,6 +3,7 @@
 
 #include "codec/decode/access_unit.h"
 #include "tools/app/commands/common.h"
+#include "tools/app/commands/fap_file.h"
 #include "tools/app/commands/plane_file.h"
 #include "tools/formats/common/json.h"
 #include "tools/formats/inspect/file_internal.h"
@@ -111,6 +112,20 @@ Result<Json> describe_text(const InfoOptions& options, std::vector<std::uint8_t>
   return json;
 }
 
+Result<Json> describe_fap_file(const InfoOptions& options) {
+  const Result<FapFile> file = FapFile::open(options.input);
+  if (!file) return file.error();
+  inspect::Extent<fap::Frame> extent;
+  auto done = file->for_each([&extent](const fap::Frame& frame) {
+    extent.add(frame);
+    return Result<void>();
+  });
+  if (!done) return done.error();
+  Json json = {{"kind", "fap"}};
+  json.update(inspect::describe_clip(extent, file->survey().rate));
+  return json;
+}
+
 Result<Description> describe(const InfoOptions& options) {
   Description out;
   Result<Json> json = Json();
@@ -118,6 +133,12 @@ Result<Description> describe(const InfoOptions& options) {
   if (PlaneFile::can_read(options.input)) {
     out.json = of_stream;
     json = describe_coded(options, PlaneFile(options.input), out);
+    if (!json) return json.error();
+    out.json.update(*json);
+    return out;
+  }
+  if (FapFile::can_read(options.input)) {
+    json = describe_fap_file(options);
     if (!json) return json.error();
     out.json.update(*json);
     return out;

@@ -220,6 +220,12 @@ Json describe_clip(const fap::Sequence& clip) {
   return describe_face(face, clip.rate);
 }
 
+Json describe_clip(const Extent<fap::Frame>& clip, fap::Rate rate) {
+  return describe_face(clip, rate);
+}
+
+template void Extent<fap::Frame>::add(const fap::Frame& frame);
+
 Json describe_body(const fba::BodySequence& body) {
   Extent<fba::BodyFrame> extent;
   for (const fba::BodyFrame& frame : body.frames) extent.add(frame);

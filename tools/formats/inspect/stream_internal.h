@@ -34,6 +34,9 @@ struct Extent {
   void add(const Frame& frame);
 };
 
+/// describe_clip() of frames that were added one by one.
+tools::Json describe_clip(const Extent<fap::Frame>& clip, fap::Rate rate);
+
 /// A stream, plane by plane; without what each of them says.
 struct StreamExtent {
   std::size_t planes = 0, intra = 0;
