@@ -41,4 +41,7 @@ Result<AccessUnits> split_access_units(std::span<const std::uint8_t> stream);
 /// object start code, as old decoders require; `with_headers` writes `config` in front instead.
 std::vector<std::uint8_t> join_access_units(const AccessUnits& units, bool with_headers = false);
 
+/// The end code, 000001B1, behind the joined units.
+std::span<const std::uint8_t> end_code();
+
 }  // namespace animeme::fba

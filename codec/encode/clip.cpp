@@ -44,16 +44,9 @@ Result<void> check_high_levels(const fap::Sequence& face) {
   return {};
 }
 
-// A plane says how many frames are skipped behind it. Numbers may be any, so differences are taken
-// without a sign.
 Result<void> check_gaps(const std::vector<std::int64_t>& numbers) {
   for (std::size_t i = 1; i < numbers.size(); ++i) {
-    if (std::uint64_t(numbers[i]) - std::uint64_t(numbers[i - 1]) <= kMaxSkip + 1) continue;
-    return make_error(Code::invalid_argument,
-                      "frame " + std::to_string(numbers[i]) + " follows frame " +
-                          std::to_string(numbers[i - 1]) +
-                          ": more than a million frames in a row cannot be skipped; put frames "
-                          "in between");
+    if (auto ok = check_step(numbers[i - 1], numbers[i]); !ok) return ok;
   }
   return {};
 }
@@ -187,6 +180,16 @@ void add_periods(std::span<const std::int64_t> number, std::size_t first, std::s
     begins.push_back(plane);
     first = plane;
   }
+}
+
+// A plane says how many frames are skipped behind it. Numbers may be any, so differences are taken
+// without a sign.
+Result<void> check_step(std::int64_t number, std::int64_t next) {
+  if (std::uint64_t(next) - std::uint64_t(number) <= kMaxSkip + 1) return {};
+  return make_error(Code::invalid_argument,
+                    "frame " + std::to_string(next) + " follows frame " + std::to_string(number) +
+                        ": more than a million frames in a row cannot be skipped; put frames "
+                        "in between");
 }
 
 Result<ClipData> gather(const fap::Sequence& face, std::span<const BodyFrame> body,

@@ -47,6 +47,10 @@ std::int64_t period_frames(double intra_seconds, fap::Rate rate);
 void add_periods(std::span<const std::int64_t> number, std::size_t first, std::size_t end,
                  std::int64_t frames, std::vector<std::size_t>& begins);
 
+/// Whether a frame can follow another one: at most a million frames are skipped in a row. Error:
+/// invalid_argument.
+Result<void> check_step(std::int64_t number, std::int64_t next);
+
 /// Merges face and body by frame numbers and holds what a frame leaves out. `leave_out`: a face
 /// gets channels, at 0, of the low-level FAPs that it does not have, too, and what rests throughout
 /// is left out as far as that is known before levels are chosen. Errors as encode().

@@ -128,6 +128,8 @@ void measure_error(const ClipData& clip, const Decision& decision, EncodeReport&
   }
   report.rms = std::sqrt(error[0] / std::max(values[0], 1.0));
   report.rms_other = std::sqrt(error[1] / std::max(values[1], 1.0));
+  report.values = values[0];
+  report.values_other = values[1];
 }
 
 EncodeReport report_on(const ClipData& clip, const Decision& decision) {

@@ -7,7 +7,8 @@
 ///     options.max_rms = 2;                                                   // not visible
 ///     auto tiny = animeme::fba::encode(clip, options);
 ///
-/// For motion that is not known in advance see live.h, for full control encoder.h and epf.h.
+/// For clips that do not fit into memory see long_clip.h, for motion that is not known in advance
+/// live.h, for full control encoder.h and epf.h.
 #pragma once
 
 #include <cstdint>
@@ -87,6 +88,8 @@ struct EncodeReport {
   std::size_t stilled = 0;       ///< parameters that move in the clip but not in the stream
   double rms = 0;                ///< error of the moving FAPs except angles, FAP units
   double rms_other = 0;          ///< error of moving angles and BAPs, half quantiser steps
+  double values = 0;             ///< number of values that `rms` is the mean of
+  double values_other = 0;       ///< the same of `rms_other`
   bool kept_ranges = false;      ///< the first plane is coarse and defines the ranges of the others
   /// Values beyond the largest range (+-1860 quantiser steps in intra planes and from plane to
   /// plane), replaced by the nearest that can be coded.

@@ -1,8 +1,11 @@
 #include <cstdio>
+#include <optional>
+#include <span>
 
 #include "codec/decode/access_unit.h"
 #include "fap/detail/text_scanner.h"
 #include "tools/app/commands/common.h"
+#include "tools/app/commands/damage.h"
 #include "tools/app/commands/outputs.h"
 #include "tools/formats/common/json.h"
 #include "tools/formats/common/text.h"
@@ -22,7 +25,47 @@ struct DemuxOptions {
   bool json = false;
 };
 
+// An intact face is written while it is read. nullopt: something is wrong with it, or it cannot be
+// read again, or written again.
+Result<std::optional<Json>> stream_face(const DemuxOptions& options) {
+  if (is_strict() || !is_on_disk(options.input) || options.face == "-") return {std::nullopt};
+  OutputFile out(options.face);
+  std::size_t bytes = 0;
+  const auto write = [&](std::span<const std::uint8_t> piece) {
+    bytes += piece.size();
+    return out.write(piece);
+  };
+  bool begun = false;
+  const auto summary = media::stream_face(
+      options.input,
+      [&](const fba::AccessUnit& unit, std::span<const std::uint8_t> config) -> Result<void> {
+        if (!begun && options.headers) {
+          if (auto done = write(config); !done) return done;
+        }
+        begun = true;
+        return write(unit.bytes);
+      });
+  if (!summary) return summary.error();
+  if (!*summary) return {std::nullopt};
+  if (auto done = write(fba::end_code()); !done) return done.error();
+  if (auto done = out.publish(); !done) return done.error();
+  const media::FaceSummary& face = **summary;
+  say(name_of_output(options.face) + ": " + std::to_string(face.units) + " planes");
+  return {Json{{"file", options.face},
+               {"format", face.format},
+               {"planes", face.units},
+               {"bytes", bytes},
+               {"start", double(face.start) / face.timescale},
+               {"end", double(face.end) / face.timescale},
+               {"timescale", face.timescale},
+               {"profile", face.visual_profile},
+               {"warnings", Json::array()}}};
+}
+
 Result<Json> write_face(const DemuxOptions& options) {
+  Result<std::optional<Json>> streamed = stream_face(options);
+  if (!streamed) return std::move(streamed).error().in_file(options.input);
+  if (*streamed) return **streamed;
   Result<media::Container> container = open_container({}, options.input);
   if (!container) return container.error().in_file(options.input);
   const fba::AccessUnits& face = container->face;

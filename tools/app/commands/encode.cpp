@@ -6,6 +6,7 @@
 
 #include "codec/text/epf.h"
 #include "fap/rate_text.h"
+#include "tools/app/commands/clip_file.h"
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/outputs.h"
 #include "tools/formats/common/bit_rate.h"
@@ -47,39 +48,24 @@ struct EncodeOptions {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// What there is to code. Frames keep their numbers: an EPF names them in FFR and BFR, and those of
-// face and body belong together.
+// What an EPF codes planes of, in memory. Frames keep their numbers: an EPF names them in FFR and
+// BFR, and those of face and body belong together.
 struct Material {
   fap::Sequence face;
-  fba::BodySequence body;
+  std::vector<fba::BodyFrame> body;
 };
 
 Result<Material> read_material(const EncodeOptions& options) {
+  const Result<ClipFile> clip = ClipFile::open(options.input, options.bap, ClipRates::any);
+  if (!clip) return clip.error();
   Material material;
-  if (!options.input.empty()) {
-    Result<MotionInput> input = read_motion(options.input, FrameNumbers::keep);
-    if (!input) return input.error();
-    if (input->kind == FileKind::bap_text) {
-      return make_error(Code::not_found, "this is BAP text without a face: give it after --bap")
-          .in_file(options.input);
-    }
-    if (input->body.frames.empty() && options.bap.empty()) {
-      if (auto ok = require_face(*input, options.input); !ok) return ok.error();
-    }
-    material.face = std::move(input->face);
-    material.body = std::move(input->body);
-  }
-  if (!options.bap.empty()) {
-    Result<MotionInput> input = read_motion(options.bap, FrameNumbers::keep);
-    if (!input) return input.error();
-    if (input->body.frames.empty()) {
-      return make_error(Code::not_found,
-                        "there is no body here: --bap needs BAP text (version 3.1 or 3.2), or a "
-                        "stream with a body")
-          .in_file(options.bap);
-    }
-    material.body = std::move(input->body);
-  }
+  material.face.rate = clip->rate();
+  auto done = clip->source().each([&](const fap::Frame* face, const fba::BodyFrame* body) {
+    if (face != nullptr) material.face.frames.push_back(*face);
+    if (body != nullptr) material.body.push_back(*body);
+    return Result<void>();
+  });
+  if (!done) return done.error();
   return material;
 }
 
@@ -88,7 +74,7 @@ Result<void> check_material(const Material& material, const std::vector<fba::Epf
     if (fba::has_face(plane.object_mask) && material.face.frames.empty()) {
       return make_error(Code::not_found, "the EPF codes a face: name a FAP text to take it from");
     }
-    if (fba::has_body(plane.object_mask) && material.body.frames.empty()) {
+    if (fba::has_body(plane.object_mask) && material.body.empty()) {
       return make_error(Code::not_found, "the EPF codes a body: name a BAP text with --bap");
     }
   }
@@ -103,40 +89,30 @@ Result<Bytes> encode_by_epf(const EncodeOptions& options) {
   Result<Material> material = read_material(options);
   if (!material) return material.error();
   if (auto ok = check_material(*material, *planes); !ok) return ok.error().in_file(options.epf);
-  Result<Bytes> bytes =
-      fba::encode_epf(material->face, material->body.frames, *planes, options.stream());
+  Result<Bytes> bytes = fba::encode_epf(material->face, material->body, *planes, options.stream());
   if (!bytes) return bytes.error().in_file(options.epf);
   return bytes;
 }
 
-// Face and body of one stream have one rate.
-Result<Material> read_clip(const EncodeOptions& options) {
-  Result<Material> material = read_material(options);
-  if (!material) return material;
-  if (material->face.frames.empty()) {
-    material->face.rate = material->body.rate;
-  } else if (!material->body.frames.empty() && material->body.rate != material->face.rate) {
-    return make_error(Code::invalid_argument,
-                      "the body has " + fap::format_rate(material->body.rate) +
-                          " frames per second and the face " +
-                          fap::format_rate(material->face.rate) + ": convert one of them")
-        .in_file(options.bap.empty() ? options.input : options.bap);
-  }
-  return material;
-}
+// What was written.
+struct Outcome {
+  std::size_t planes = 0;
+  std::size_t intra_planes = 0;
+  std::size_t bytes = 0;
+  double kbps = 0;
+};
 
-Result<Bytes> encode_clip(const EncodeOptions& options, fba::EncodeReport& report) {
-  Result<Material> material = read_clip(options);
-  if (!material) return material.error();
+// Clips of several windows are written window by window.
+Result<Outcome> encode_clip(const EncodeOptions& options, fba::EncodeReport& report) {
+  const Result<ClipFile> clip = ClipFile::open(options.input, options.bap, ClipRates::equal);
+  if (!clip) return clip.error();
   fba::EncodeOptions settings;
   if (options.preset == Preset::file) settings = fba::file_options();
   if (options.preset == Preset::live) settings = fba::live_options();
   settings.leave_out = settings.leave_out || options.rms > 0 || options.kbps > 0;
   settings.fap_quant = settings.bap_quant = options.quant.value_or(1);
   if (options.intra_seconds) settings.intra_seconds = *options.intra_seconds;
-  if (options.intra_period) {
-    settings.intra_seconds = material->face.rate.seconds(*options.intra_period);
-  }
+  if (options.intra_period) settings.intra_seconds = clip->rate().seconds(*options.intra_period);
   settings.stream = options.stream();
   settings.kept_ranges = options.kept_ranges;
   settings.max_rms = options.rms;
@@ -146,34 +122,42 @@ Result<Bytes> encode_clip(const EncodeOptions& options, fba::EncodeReport& repor
   ProgressLine progress("searching for the smallest stream");
   settings.progress = [&progress](double done) { progress.update(done); };
   AtStep step(Step::coding);
-  auto bytes = fba::encode(material->face, settings, material->body.frames, &report);
-  if (bytes) step.made(bytes->size());
-  return bytes;
+  OutputFile out(options.output);
+  Outcome outcome;
+  const auto written = fba::encode_long(clip->source(), settings,
+                                        [&](std::span<const std::uint8_t> bytes) -> Result<void> {
+                                          outcome.bytes += bytes.size();
+                                          return out.write(bytes);
+                                        });
+  if (!written) return written.error();
+  if (auto published = out.publish(); !published) return published.error();
+  step.made(outcome.bytes);
+  report = *written;
+  outcome.planes = report.planes;
+  outcome.intra_planes = report.intra_planes;
+  outcome.kbps = kbit_per_s(outcome.bytes, clip->rate().seconds(double(clip->frames())));
+  return outcome;
 }
 
-// What was written, counted as a receiver does.
-struct Outcome {
-  std::size_t planes = 0;
-  std::size_t intra_planes = 0;
-  double kbps = 0;
-};
-
-Outcome count(const Bytes& bytes) {
+Result<Outcome> encode_exactly(const EncodeOptions& options) {
+  const Result<Bytes> bytes = encode_by_epf(options);
+  if (!bytes) return bytes.error();
+  if (auto written = write_file(options.output, *bytes); !written) return written.error();
   Outcome outcome;
-  const Result<fba::DecodedStream> decoded = fba::decode(bytes);
+  outcome.bytes = bytes->size();
+  const Result<fba::DecodedStream> decoded = fba::decode(*bytes);
   if (!decoded) return outcome;
   outcome.planes = decoded->planes.size();
   for (const fba::Plane& plane : decoded->planes) outcome.intra_planes += plane.intra ? 1 : 0;
   const double seconds = decoded->rate.seconds(double(decoded->planes.back().number + 1));
-  outcome.kbps = kbit_per_s(bytes.size(), seconds);
+  outcome.kbps = kbit_per_s(bytes->size(), seconds);
   return outcome;
 }
 
-void tell(const EncodeOptions& options, const Bytes& bytes, const fba::EncodeReport& report) {
-  const Outcome outcome = count(bytes);
+void tell(const EncodeOptions& options, const Outcome& outcome, const fba::EncodeReport& report) {
   std::string line =
       name_of_output(options.output) +
-      format(": %zu planes, %zu bytes, %.2f kbit/s", outcome.planes, bytes.size(), outcome.kbps);
+      format(": %zu planes, %zu bytes, %.2f kbit/s", outcome.planes, outcome.bytes, outcome.kbps);
   if (report.planes > 0) {
     line += format("; fap_quant %d, error %.2f FAP units RMS, %zu coded", report.fap_quant,
                    report.rms, report.coded);
@@ -200,7 +184,7 @@ void tell(const EncodeOptions& options, const Bytes& bytes, const fba::EncodeRep
   if (!options.json) return;
   Json json = {{"planes", outcome.planes},
                {"intra_planes", outcome.intra_planes},
-               {"bytes", bytes.size()},
+               {"bytes", outcome.bytes},
                {"kbit_per_s", outcome.kbps}};
   if (report.planes > 0) {
     json.update(Json{{"fap_quant", report.fap_quant},
@@ -255,14 +239,13 @@ Result<int> run(const EncodeOptions& given) {
   if (!options.preset) options.preset = options.epf.empty() ? Preset::plain : Preset::exact;
   if (const char* text = contradiction(options, *options.preset)) return usage_error(text);
   fba::EncodeReport report;
-  Result<Bytes> bytes =
-      *options.preset == Preset::exact ? encode_by_epf(options) : encode_clip(options, report);
-  if (!bytes) {
-    if (!bytes.error().where.file.empty()) return bytes.error();
-    return bytes.error().in_file(options.input.empty() ? options.bap : options.input);
+  const Result<Outcome> outcome =
+      *options.preset == Preset::exact ? encode_exactly(options) : encode_clip(options, report);
+  if (!outcome) {
+    if (!outcome.error().where.file.empty()) return outcome.error();
+    return outcome.error().in_file(options.input.empty() ? options.bap : options.input);
   }
-  if (auto written = write_file(options.output, *bytes); !written) return written.error();
-  tell(options, *bytes, report);
+  tell(options, *outcome, report);
   return kOk;
 }
 

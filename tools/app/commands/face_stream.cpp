@@ -64,12 +64,16 @@ void give_limits(const StreamSettings& settings, live::Coding& coding) {
 
 std::string seconds_text(double seconds) { return format("%.2f s", seconds); }
 
+fba::EncodeOptions unit_options(const StreamSettings& settings, fap::Rate rate) {
+  fba::EncodeOptions options = encode_options(settings);
+  options.max_bits_per_second = live::bit_rate_of_planes(options.max_bits_per_second, rate);
+  options.intra_seconds = settings.intra_seconds;
+  return options;
+}
+
 Result<fba::AccessUnits> access_units(const FaceInput& face, const StreamSettings& settings) {
   if (!face.stream.empty()) return fba::split_access_units(face.stream);
-  fba::EncodeOptions options = encode_options(settings);
-  options.max_bits_per_second =
-      live::bit_rate_of_planes(options.max_bits_per_second, face.clip.rate);
-  options.intra_seconds = settings.intra_seconds;
+  const fba::EncodeOptions options = unit_options(settings, face.clip.rate);
   AtStep step(Step::coding);
   Result<std::vector<std::uint8_t>> stream = fba::encode(face.clip, options);
   if (!stream) return stream.error();
@@ -110,20 +114,36 @@ media::AudioSettings audio_settings(const SoundSettings& settings, const std::st
 
 namespace {
 
+struct FaceFacts {
+  std::size_t planes = 0;
+  std::size_t bytes = 0;  // of the raw stream
+  double seconds = 0;
+};
+
+FaceFacts facts_of(const media::MuxInput& input) {
+  if (input.face_units != nullptr) {
+    const fba::UnitSummary& units = input.face_units->summary();
+    return {units.units, units.bytes + fba::end_code().size(), double(units.end) / units.timescale};
+  }
+  const fba::AccessUnits& face = *input.face;
+  const fba::AccessUnit& last = face.units.back();
+  return {face.units.size(), fba::join_access_units(face).size(),
+          double(last.time + last.duration) / face.timescale};
+}
+
 // "face 100 planes, 4.00 s, 2.52 kbit/s, sound aac".
 std::string summary(const media::MuxInput& input, const media::MuxOptions& options,
                     double sound_seconds, bool copied) {
   std::string text;
-  if (input.face != nullptr) {
-    const fba::AccessUnits& face = *input.face;
-    const fba::AccessUnit& last = face.units.back();
-    const double seconds = double(last.time + last.duration) / face.timescale;
+  if (input.has_face()) {
+    const FaceFacts face = facts_of(input);
+    const double seconds = face.seconds;
     if (sound_seconds > 0 && std::abs(sound_seconds - seconds) > 1.0) {
       warn("the face lasts " + seconds_text(seconds) + ", the sound " +
            seconds_text(sound_seconds));
     }
-    text += format("face %zu planes, %.2f s, %.2f kbit/s", face.units.size(), seconds,
-                   kbit_per_s(fba::join_access_units(face).size(), seconds));
+    text += format("face %zu planes, %.2f s, %.2f kbit/s", face.planes, seconds,
+                   kbit_per_s(face.bytes, seconds));
   }
   if (sound_seconds > 0) {
     text += ", sound " + seconds_text(sound_seconds);
@@ -159,7 +179,7 @@ Result<int> write_media(const std::string& path, const media::MuxInput& input,
   const std::uintmax_t bytes = std::filesystem::file_size(path, unknown);
   if (!unknown) step.made(bytes);
   Json facts = Json::object();
-  if (input.face != nullptr) facts["planes"] = input.face->units.size();
+  if (input.has_face()) facts["planes"] = facts_of(input).planes;
   facts["sound_seconds"] = written->sound_seconds;
   if (!unknown) facts["bytes"] = bytes;
   report_output(path,

@@ -40,6 +40,9 @@ void add_stream_options(OptionTable& cli, StreamSettings& settings);
 /// `file`; else every FAP of the clip is coded.
 fba::EncodeOptions encode_options(const StreamSettings& settings);
 
+/// The options for access units of containers.
+fba::EncodeOptions unit_options(const StreamSettings& settings, fap::Rate rate);
+
 /// The same limits for clips that are streamed.
 void give_limits(const StreamSettings& settings, live::Coding& coding);
 

@@ -2,11 +2,20 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <span>
 
+#include "codec/encode/long_clip.h"
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/face_stream.h"
+#include "tools/app/commands/fap_file.h"
+#include "tools/app/commands/plane_file.h"
 #include "tools/app/commands/preview.h"
+#include "tools/formats/files/cost.h"
 #include "tools/formats/media/container.h"
+#include "tools/formats/programs/scratch_folder.h"
 #include "tools/live/sessions/clip.h"
 #include "tools/speech/talking/voice_file.h"
 
@@ -57,6 +66,69 @@ Result<fba::AccessUnits> for_segments(fba::AccessUnits units, bool coded,
   return std::move(**again);
 }
 
+// A stream in a file that is written while it is read.
+struct LongFace {
+  std::string stream;                     // path; empty: the face has to be in memory
+  std::unique_ptr<ScratchFolder> folder;  // where it is, if it was made of text
+};
+
+Result<LongFace> code_long_text(const MuxOptions& options) {
+  const Result<FapFile> text = FapFile::open(options.face);
+  if (!text) return text.error();
+  Result<std::unique_ptr<ScratchFolder>> folder = ScratchFolder::make();
+  if (!folder) return folder.error();
+  LongFace face{(*folder)->file("face.fba"), std::move(*folder)};
+  const fap::Rate rate = text->survey().rate;
+  const fba::ClipSource source{
+      rate, [&text](const fba::TakeInstant& take) {
+        return text->for_each([&](const fap::Frame& frame) { return take(&frame, nullptr); });
+      }};
+  AtStep step(Step::coding);
+  std::ofstream out(face.stream, std::ios::binary);
+  std::size_t size = 0;
+  const auto coded = fba::encode_long(
+      source, unit_options(options.stream, rate), [&](std::span<const std::uint8_t> bytes) {
+        out.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+        size += bytes.size();
+        return Result<void>();
+      });
+  if (!coded) return coded.error();
+  out.close();
+  if (!out) return make_error(Code::io, "cannot write the file").in_file(face.stream);
+  step.made(size);
+  return face;
+}
+
+// An intact stream or a text.
+Result<LongFace> read_long_face(const MuxOptions& options) {
+  const bool whole = in_segments(options.output) || options.mux.systems ||
+                     options.mux.shared_seconds > 0 || !options.preview.empty();
+  if (whole) return LongFace();
+  if (FapFile::can_read(options.face)) return code_long_text(options);
+  if (!PlaneFile::can_read(options.face)) return LongFace();
+  bool faces = false;
+  std::vector<std::string> warnings;
+  const auto note = [&faces](const fba::Plane& plane) {
+    faces = faces || fba::has_face(plane.object_mask);
+    return Result<void>();
+  };
+  const auto read = PlaneFile(options.face).for_each(note, &warnings);
+  if (!read || !warnings.empty() || !faces) return LongFace();
+  return LongFace{options.face, nullptr};
+}
+
+Result<fba::UnitReader> open_units(const LongFace& face) {
+  const auto file = std::make_shared<std::ifstream>(face.stream, std::ios::binary);
+  return fba::UnitReader::open(
+      [file](std::uint64_t offset, std::span<std::uint8_t> to) -> Result<std::size_t> {
+        file->clear();
+        file->seekg(std::streamoff(offset));
+        file->read(reinterpret_cast<char*>(to.data()), std::streamsize(to.size()));
+        if (file->bad()) return make_error(Code::io, "cannot read");
+        return std::size_t(file->gcount());
+      });
+}
+
 // A face out of a container keeps its times, which its planes alone would not tell.
 // `coded` receives whether it is a stream.
 Result<fba::AccessUnits> read_units(const MuxOptions& options, bool& coded) {
@@ -93,19 +165,34 @@ Result<speech::SoundInput> sound_of(const MuxOptions& options) {
   return sound;
 }
 
-Result<int> run(MuxOptions options) {
+// As a whole, as read_long_face() leaves it to be.
+Result<fba::AccessUnits> read_whole_face(const MuxOptions& options) {
   bool coded = true;
   Result<fba::AccessUnits> units = read_units(options, coded);
-  if (!units) return units.error().in_file(options.face);
   const bool one_point = options.stream.intra_seconds == 0;  // is asked for
-  if (in_segments(options.output) && !one_point) {
-    units = for_segments(std::move(*units), coded, options);
-    if (!units) return units.error().in_file(options.face);
+  if (!units || !in_segments(options.output) || one_point) return units;
+  return for_segments(std::move(*units), coded, options);
+}
+
+Result<int> run(MuxOptions options) {
+  const Result<LongFace> face = read_long_face(options);
+  if (!face) return face.error().in_file(options.face);
+  std::optional<fba::UnitReader> reader;
+  fba::AccessUnits units;
+  if (face->stream.empty()) {
+    Result<fba::AccessUnits> whole = read_whole_face(options);
+    if (!whole) return whole.error().in_file(options.face);
+    units = std::move(*whole);
+  } else {
+    Result<fba::UnitReader> opened = open_units(*face);
+    if (!opened) return opened.error().in_file(options.face);
+    reader = std::move(*opened);
   }
   const Result<speech::SoundInput> sound = sound_of(options);
   if (!sound) return sound.error();
   media::MuxInput input;
-  input.face = &*units;
+  input.face_units = reader ? &*reader : nullptr;
+  input.face = reader ? nullptr : &units;
   sound->give_to(input);
   std::vector<media::TextTrack> texts;  // go with a face that is spoken to them
   if (!options.mux.systems && media::takes_text(options.output)) {
@@ -120,7 +207,7 @@ Result<int> run(MuxOptions options) {
   if (options.video_track) options.mux.face_track = media::FaceTrackType::video;
   Result<int> written = write_media(options.output, input, options.mux);
   if (!written || *written != kOk || options.preview.empty()) return written;
-  return write_preview(options.preview, *units, input);
+  return write_preview(options.preview, units, input);
 }
 
 void add_options(OptionTable& cli, MuxOptions& options) {

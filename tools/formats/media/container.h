@@ -14,6 +14,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -77,6 +78,27 @@ Result<Container> read_container(const std::string& path, const ReadOptions& opt
 /// The same from memory.
 Result<Container> read_container(std::span<const std::uint8_t> file,
                                  const ReadOptions& options = {});
+
+/// What stream_face() has handed over.
+struct FaceSummary {
+  std::string format;               ///< as Container::format
+  std::uint8_t visual_profile = 0;  ///< as Container::visual_profile
+  std::uint32_t timescale = 1;      ///< ticks per second
+  std::size_t units = 0;            ///< number of access units
+  std::int64_t start = 0;           ///< of the first one, ticks, as Container::face
+  std::int64_t end = 0;             ///< of the last one
+};
+
+/// Takes an access unit and the decoder configuration. Of the unit's times only the duration is
+/// that of Container::face: where the sound begins is not known yet.
+using TakeUnit =
+    std::function<Result<void>(const fba::AccessUnit&, std::span<const std::uint8_t> config)>;
+
+/// Hands over the units of read_container(), with ReadOptions::repair, one after the other, so that
+/// memory does not grow with them (but for the table of an mp4, some 70 bytes a unit). nullopt:
+/// there is something to repair or to warn of, or the file is a playlist: what was handed over is
+/// void, and read_container() tells more. Errors: those of read_container() and of `take`.
+Result<std::optional<FaceSummary>> stream_face(const std::string& path, const TakeUnit& take);
 
 /// The best audio track as it is coded, AAC or Opus, packet by packet. Time 0 is sample 0 of
 /// read_audio(); times from coarse clocks (mkv, TS) are restored where packets follow each other.

@@ -15,6 +15,7 @@
 #include "tools/formats/media/detail/tracks/mux_parts.h"
 #include "tools/formats/media/detail/tracks/plane_cutter.h"
 #include "tools/formats/media/detail/tracks/text_samples.h"
+#include "tools/formats/media/detail/tracks/unit_facts.h"
 #include "tools/formats/media/detail/ts/ts_pmt.h"
 
 namespace animeme::media {
@@ -76,7 +77,11 @@ Result<void> check_type(const FileType& type, const MuxInput& input, const MuxOp
   if (text && (options.systems || !type.text)) {
     return unsupported("text goes into plain .mp4, .mkv and .m3u8 files only");
   }
-  if (input.face != nullptr && !type.face) {
+  const bool whole = type.is_segments() || options.systems || options.shared_seconds > 0;
+  if (input.face_units != nullptr && whole) {
+    return unsupported("this file needs the access units of the face in memory");
+  }
+  if (input.has_face() && !type.face) {
     return unsupported("a " + name +
                        " file can only contain sound; use .mp4, .mkv or .ts for a face");
   }
@@ -96,9 +101,17 @@ Result<void> check_type(const FileType& type, const MuxInput& input, const MuxOp
 }
 
 OutputStream::Filter filter_of(const FileType& type, const MuxInput& input) {
-  if (!type.is_ts() || input.face == nullptr) return nullptr;
+  if (!type.is_ts() || !input.has_face()) return nullptr;
   const auto filter = std::make_shared<ProgramMapFilter>(std::uint8_t(visual_profile(input)));
   return [filter](std::span<const std::uint8_t> bytes) { return filter->push(bytes); };
+}
+
+// What a muxer asks for before the first unit.
+fba::AccessUnits head_of(const fba::UnitReader& units) {
+  const fba::UnitSummary& facts = units.summary();
+  fba::AccessUnits head{facts.config, facts.timescale, {}};
+  head.units.emplace_back().duration = facts.first_duration;
+  return head;
 }
 
 Result<MuxResult> write_streams(const std::string& path, const FileType& type,
@@ -119,8 +132,15 @@ Result<MuxResult> write_streams(const std::string& path, const FileType& type,
     shared = share_packets(*face, options.shared_seconds);
     face = &shared;
   }
-  if (face != nullptr) {
-    if (auto added = muxer.add_face(*face); !added) return added.error();
+  if (input.face_units != nullptr) {
+    shared = head_of(*input.face_units);
+    face = &shared;
+    const fba::UnitSummary& facts = input.face_units->summary();
+    auto added = muxer.add_face(shared, BufferFacts{facts.largest, facts.peak_bits});
+    if (!added) return added.error();
+    feeds.push_back(face_feed(muxer, *input.face_units));
+  } else if (face != nullptr) {
+    if (auto added = muxer.add_face(*face, buffer_facts(*face)); !added) return added.error();
     feeds.push_back(face_feed(muxer, *face));
   }
   const AudioFormat* format = *sound ? &(*sound)->format() : nullptr;
@@ -140,7 +160,7 @@ Result<MuxResult> write_streams(const std::string& path, const FileType& type,
   }
   av::Options header;
   if (type.is_mp4()) {
-    set_mp4_options({input.face, visual_profile(input), format, input.video}, header);
+    set_mp4_options({face, visual_profile(input), format, input.video}, header);
     if (options.fragmented) {
       set_fragment_options("frag_keyframe", options.fragment_seconds, header);
     } else {
@@ -259,7 +279,7 @@ Result<MuxResult> write_container(const std::string& path, const MuxInput& input
   }
   const FileType* type = type_of(path);
   if (type != nullptr) return guarded_write(path, *type, input, options);
-  const bool face = input.face != nullptr;
+  const bool face = input.has_face();
   return unsupported("cannot write a \"" + extension_of(path) + "\" file; use .mp4, .mkv or .ts" +
                      (face ? "" : ", .m4a, .mka, .webm or .opus"))
       .in_file(path);

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "codec/decode/access_unit.h"
+#include "codec/decode/unit_reader.h"
 #include "fap/result.h"
 #include "tools/formats/media/encoded_audio.h"
 #include "tools/formats/media/pcm.h"
@@ -28,7 +29,11 @@ namespace animeme::media {
 /// Contents of the file: face, sound, pictures, or any of them.
 struct MuxInput {
   const fba::AccessUnits* face = nullptr;  ///< nullptr: sound only
-  const Pcm* audio = nullptr;              ///< samples to be coded; nullptr: none
+  /// The face in place of `face`, read while it is written, so that memory does not grow with it
+  /// (but for the table of an mp4 in one piece, of which FFmpeg keeps 140 bytes a unit). Not for
+  /// HLS, DASH, Systems presentations and MuxOptions::shared_seconds. nullptr: none.
+  fba::UnitReader* face_units = nullptr;
+  const Pcm* audio = nullptr;  ///< samples to be coded; nullptr: none
   /// A sound file (see AudioReader) that is decoded and coded while it is written, so that memory
   /// does not grow with it; two channels stay two, more become two; nullptr: none.
   const std::string* audio_file = nullptr;
@@ -45,6 +50,8 @@ struct MuxInput {
   /// Visual profile and level for the file's own table of contents (mp4 `iods`): 0x61..0x64.
   /// 0: as in the face's configuration, 0x61 if that has none.
   std::uint8_t visual_profile = 0;
+
+  bool has_face() const { return face != nullptr || face_units != nullptr; }  ///< either
 };
 
 /// Type of the face track in mp4, HLS and DASH.

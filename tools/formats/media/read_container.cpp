@@ -48,8 +48,13 @@ class ContainerReader {
   }
 
   Result<Container> read(const av::LogCapture& log);
+  /// stream_face().
+  Result<std::optional<FaceSummary>> stream(const TakeUnit& take, const av::LogCapture& log);
 
  private:
+  void choose_tracks(std::optional<int>& audio);
+  bool indexed() const;
+  Result<void> need_units() const;
   Result<void> read_packets(SoundStart& sound);
   Result<void> take(const AVPacket& packet);
   std::int64_t shift(const SoundStart& sound) const;
@@ -65,6 +70,7 @@ class ContainerReader {
   FaceTracks tracks_;
   int face_ = -1;  // stream index, once it is certain
   std::optional<UnitCollector> units_;
+  TakeUnit take_;  // empty: units are collected
   std::optional<OtherSound> other_sound_;
   int status_ = 0;
 };
@@ -93,6 +99,7 @@ Result<void> ContainerReader::take(const AVPacket& packet) {
   if (face_ < 0 && tracks_[index].state == FaceTrack::State::yes) {
     face_ = index;
     units_.emplace(options_, tracks_[index].config, result_.format == "mpegts");
+    if (take_) units_->pass_on(take_);
   }
   if (index != face_) return {};
   return units_->add(packet, file_.streams[index]->time_base);
@@ -168,14 +175,14 @@ void ContainerReader::add_damage(std::int64_t found, const av::LogCapture& log) 
   add_damage_at_end(result_, std::move(reason));
 }
 
-Result<Container> ContainerReader::read(const av::LogCapture& log) {
+// Leaves what is not needed to the demuxer, and finds the sound.
+void ContainerReader::choose_tracks(std::optional<int>& audio) {
   result_.format = input_.format();
   tracks_.update(file_);
   if (avformat_find_stream_info(&file_, nullptr) < 0) {
     result_.warnings.push_back("the stream headers are incomplete");
   }
   tracks_.update(file_);
-  std::optional<int> audio;
   if (!other_sound_) audio = find_audio(input_);
   for (unsigned i = 0; i < file_.nb_streams; ++i) {
     const bool wanted =
@@ -183,23 +190,52 @@ Result<Container> ContainerReader::read(const av::LogCapture& log) {
     if (!wanted) file_.streams[i]->discard = AVDISCARD_ALL;
   }
   if (audio) result_.audio = describe_audio(input_, *file_.streams[*audio]);
+}
+
+Result<void> ContainerReader::need_units() const {
+  if (units_) return {};
+  if (tracks_.first() < 0) return no_face();
+  return make_error(Code::truncated, "the face track is empty; the file is probably cut off");
+}
+
+// An index says where each sample is; without one, what cannot be read leaves no trace.
+bool ContainerReader::indexed() const { return result_.format == "mp4" || result_.format == "mov"; }
+
+Result<Container> ContainerReader::read(const av::LogCapture& log) {
+  std::optional<int> audio;
+  choose_tracks(audio);
   SoundStart sound(input_, audio ? file_.streams[*audio] : nullptr);
   Result<void> packets = read_packets(sound);
   if (!packets) return packets.error();
-  if (!units_) {
-    if (tracks_.first() < 0) return no_face();
-    return make_error(Code::truncated, "the face track is empty; the file is probably cut off");
-  }
+  if (auto found = need_units(); !found) return found.error();
   const std::int64_t ticks = shift(sound);
   add_warnings(log);
   const auto found = std::int64_t(units_->count());
-  // An index says where each sample is; without one, what cannot be read leaves no trace.
-  const bool indexed = result_.format == "mp4" || result_.format == "mov";
-  if (options_.repair && !indexed) units_->find_gaps(!log.lines().empty());
+  if (options_.repair && !indexed()) units_->find_gaps(!log.lines().empty());
   Result<void> finished = units_->finish(ticks, result_);
   if (!finished) return finished.error();
   add_damage(found, log);
   return std::move(result_);
+}
+
+Result<std::optional<FaceSummary>> ContainerReader::stream(const TakeUnit& take,
+                                                           const av::LogCapture& log) {
+  take_ = take;
+  std::optional<int> audio;
+  choose_tracks(audio);
+  SoundStart sound(input_, audio ? file_.streams[*audio] : nullptr);
+  Result<void> packets = read_packets(sound);
+  if (!packets) return packets.error();
+  if (auto found = need_units(); !found) return found.error();
+  const std::int64_t stated = face_ < 0 ? 0 : file_.streams[face_]->nb_frames;
+  const bool complete = status_ == AVERROR_EOF && stated <= std::int64_t(units_->count()) &&
+                        !ends_in_packet() && !input_.exhausted();
+  if (!complete || !log.lines().empty() || !result_.warnings.empty()) return {std::nullopt};
+  FaceSummary summary;
+  summary.format = result_.format;
+  const Result<bool> intact = units_->finish_passing(shift(sound), !indexed(), summary);
+  if (!intact) return intact.error();
+  return *intact ? std::optional(summary) : std::nullopt;
 }
 
 template <class Source>
@@ -233,6 +269,18 @@ Result<Container> read_playlist(const std::string& path, const ReadOptions& opti
 }
 
 }  // namespace
+
+Result<std::optional<FaceSummary>> stream_face(const std::string& path, const TakeUnit& take) {
+  return av::guarded(path, [&]() -> Result<std::optional<FaceSummary>> {
+    if (is_playlist(path)) return {std::nullopt};
+    const av::LogCapture log;
+    Result<std::unique_ptr<Input>> input = Input::open(path, kFaceFormats);
+    if (!input) return input.error();
+    ReadOptions options;
+    options.repair = true;
+    return ContainerReader(**input, options).stream(take, log);
+  });
+}
 
 Result<Container> read_container(const std::string& path, const ReadOptions& options) {
   return av::guarded(path, [&] {

@@ -187,7 +187,7 @@ Result<void> SegmentWriter::open(const tools::OutputFolder& folder) {
     (*track)->description.codecs = options_.face_track == FaceTrackType::metadata
                                        ? "mp4s.20"
                                        : "mp4v.20." + to_hex(std::array{std::uint8_t(profile)});
-    Result<void> done = muxer.add_face(*input_.face);
+    Result<void> done = muxer.add_face(*input_.face, buffer_facts(*input_.face));
     if (done) {
       done = start(**track, {input_.face, profile, nullptr}, face_feed(muxer, *input_.face));
     }

@@ -42,6 +42,41 @@ class ListFeed : public TrackFeed {
   std::size_t next_ = 0;
 };
 
+/// Units that are read while they are written.
+class UnitFeed : public TrackFeed {
+ public:
+  UnitFeed(Muxer& muxer, fba::UnitReader& units) : muxer_(muxer), units_(units) {}
+
+  Result<void> begin() override {
+    units_.rewind();
+    return next();
+  }
+  bool ready() const override { return unit_ != nullptr; }
+  std::int64_t time() const override { return unit_->time; }
+  AVRational time_base() const override { return {1, int(units_.summary().timescale)}; }
+  bool sync() const override { return unit_->intra; }
+  Result<void> write() override {
+    end_ = unit_->time + unit_->duration;
+    Result<void> written = muxer_.write_unit(*unit_);
+    return written ? next() : written;
+  }
+  double end() const override { return double(end_) / units_.summary().timescale; }
+  double share() const override { return double(end_) / double(units_.summary().end); }
+
+ private:
+  Result<void> next() {
+    const Result<const fba::AccessUnit*> unit = units_.next();
+    if (!unit) return unit.error();
+    unit_ = *unit;
+    return {};
+  }
+
+  Muxer& muxer_;
+  fba::UnitReader& units_;
+  const fba::AccessUnit* unit_ = nullptr;
+  std::int64_t end_ = 0;
+};
+
 class SoundFeed : public TrackFeed {
  public:
   SoundFeed(Muxer& muxer, SoundSource& sound, double seconds)
@@ -113,6 +148,10 @@ std::unique_ptr<TrackFeed> face_feed(Muxer& muxer, const fba::AccessUnits& face)
   return std::make_unique<ListFeed<fba::AccessUnit>>(muxer, face.units,
                                                      AVRational{1, int(face.timescale)},
                                                      &fba::AccessUnit::intra, &Muxer::write_unit);
+}
+
+std::unique_ptr<TrackFeed> face_feed(Muxer& muxer, fba::UnitReader& units) {
+  return std::make_unique<UnitFeed>(muxer, units);
 }
 
 std::unique_ptr<TrackFeed> video_feed(Muxer& muxer, const EncodedVideo& video) {

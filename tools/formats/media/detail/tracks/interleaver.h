@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "codec/decode/access_unit.h"
+#include "codec/decode/unit_reader.h"
 #include "tools/formats/media/detail/sound/sound_source.h"
 #include "tools/formats/media/detail/tracks/muxer.h"
 
@@ -41,6 +42,7 @@ class TrackFeed {
 
 /// All of these outlive the feed. `seconds` of sound, for share().
 std::unique_ptr<TrackFeed> face_feed(Muxer& muxer, const fba::AccessUnits& face);
+std::unique_ptr<TrackFeed> face_feed(Muxer& muxer, fba::UnitReader& units);
 std::unique_ptr<TrackFeed> video_feed(Muxer& muxer, const EncodedVideo& video);
 std::unique_ptr<TrackFeed> sound_feed(Muxer& muxer, SoundSource& sound, double seconds);
 /// `text` as from Muxer::add_text().

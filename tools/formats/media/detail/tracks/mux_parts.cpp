@@ -75,7 +75,7 @@ Result<void> check_text(const TextTrack& track) {
 Result<void> check_input(const MuxInput& input, const MuxOptions& options) {
   const int sounds = int(input.audio != nullptr) + int(input.encoded != nullptr) +
                      int(input.audio_file != nullptr);
-  if (input.face == nullptr && sounds == 0 && input.video == nullptr) {
+  if (!input.has_face() && sounds == 0 && input.video == nullptr) {
     return invalid("nothing to write: neither a face nor sound nor pictures were given");
   }
   if (sounds > 1) {
@@ -84,13 +84,19 @@ Result<void> check_input(const MuxInput& input, const MuxOptions& options) {
   if (input.face != nullptr) {
     if (auto legal = check_face(*input.face); !legal) return legal;
   }
+  if (input.face != nullptr && input.face_units != nullptr) {
+    return invalid("the face was given twice, as a list and as a reader of units");
+  }
+  if (input.face_units != nullptr && input.face_units->summary().largest > kLargestUnit) {
+    return invalid("an access unit is larger than 16 MB");
+  }
   if (input.video != nullptr && input.video->packets.empty()) {
     return invalid("there are no pictures");
   }
   if (options.systems && input.video != nullptr) {
     return make_error(Code::unsupported, "a Systems presentation has no pictures");
   }
-  if (options.systems && input.face == nullptr) {
+  if (options.systems && !input.has_face()) {
     return make_error(Code::unsupported, "a Systems presentation needs a face");
   }
   if (options.systems && options.fragmented) {
@@ -113,8 +119,10 @@ Result<void> check_input(const MuxInput& input, const MuxOptions& options) {
 
 int visual_profile(const MuxInput& input) {
   if (input.visual_profile != 0) return input.visual_profile;
-  if (input.face == nullptr) return int(kNoneRequired);
-  const std::uint8_t profile = read_visual_headers(input.face->config).profile;
+  if (!input.has_face()) return int(kNoneRequired);
+  const auto& config =
+      input.face != nullptr ? input.face->config : input.face_units->summary().config;
+  const std::uint8_t profile = read_visual_headers(config).profile;
   return profile != 0 ? profile : kSimpleFace;
 }
 

@@ -18,12 +18,12 @@ std::uint32_t container_timescale(std::uint32_t timescale) {
   return timescale * ((kLowestTimescale + timescale - 1) / timescale);
 }
 
-bool set_buffer_facts(AVStream& stream, const fba::AccessUnits& face) {
+bool set_buffer_facts(AVStream& stream, const BufferFacts& face) {
   std::size_t size = 0;
   AVCPBProperties* facts = av_cpb_properties_alloc(&size);
   if (facts == nullptr) return false;
-  facts->buffer_size = 8 * std::int64_t(largest_unit(face));
-  facts->max_bitrate = peak_bit_rate(face);
+  facts->buffer_size = 8 * std::int64_t(face.largest);
+  facts->max_bitrate = face.peak_bits;
   auto* data = reinterpret_cast<std::uint8_t*>(facts);
   if (av_stream_add_side_data(&stream, AV_PKT_DATA_CPB_PROPERTIES, data, size) >= 0) return true;
   av_free(facts);
@@ -58,7 +58,8 @@ bool Muxer::is(const char* format) const {
   return std::strcmp(context_->oformat->name, format) == 0;
 }
 
-Result<void> Muxer::add_face(const fba::AccessUnits& units, Whole whole) {
+Result<void> Muxer::add_face(const fba::AccessUnits& units,
+                             const std::optional<BufferFacts>& facts) {
   AVStream* stream = avformat_new_stream(context_, nullptr);
   if (stream == nullptr) return av::no_memory();
   AVCodecParameters& parameters = *stream->codecpar;
@@ -67,7 +68,7 @@ Result<void> Muxer::add_face(const fba::AccessUnits& units, Whole whole) {
   parameters.width = 320;  // as the reference library writes it; 0 is refused
   parameters.height = 240;
   if (!av::set_extradata(parameters, units.config) ||
-      (whole == Whole::yes && !set_buffer_facts(*stream, units))) {
+      (facts && !set_buffer_facts(*stream, *facts))) {
     return av::no_memory();
   }
   stream->time_base = {1, int(container_timescale(units.timescale))};

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "tools/formats/media/detail/ffmpeg/ffmpeg.h"
 #include "tools/formats/media/detail/ffmpeg/output_stream.h"
 #include "tools/formats/media/detail/tracks/text_samples.h"
+#include "tools/formats/media/detail/tracks/unit_facts.h"
 #include "tools/formats/media/encoded_audio.h"
 #include "tools/formats/media/video.h"
 
@@ -26,11 +28,10 @@ class Muxer {
   Muxer(const Muxer&) = delete;
   Muxer& operator=(const Muxer&) = delete;
 
-  /// The units are complete. Else the decoder configuration is left open.
-  enum class Whole : bool { no, yes };
   /// Adds the face stream. `units` must outlive the muxer; it has one at least, whose duration
-  /// tells the rate.
-  Result<void> add_face(const fba::AccessUnits& units, Whole whole = Whole::yes);
+  /// tells the rate. `facts` are those of all units; nullopt: they are not known yet, and the
+  /// decoder configuration is left open.
+  Result<void> add_face(const fba::AccessUnits& units, const std::optional<BufferFacts>& facts);
   /// Adds the pictures; before the face, so that players choose them. `video` must outlive the
   /// muxer.
   Result<void> add_video(const EncodedVideo& video);

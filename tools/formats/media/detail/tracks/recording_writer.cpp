@@ -220,7 +220,7 @@ Result<void> ContainerRecording::add_tracks() {
     face_.config = info_.face_config;
     face_.timescale = info_.timescale;
     face_.units.push_back({{}, true, 0, std::int64_t(std::max(1.0, info_.timescale / kUsualRate))});
-    if (auto added = muxer_->add_face(face_, Muxer::Whole::no); !added) return added;
+    if (auto added = muxer_->add_face(face_, std::nullopt); !added) return added;
   }
   if (!info_.audio) return {};
   sound_ = *info_.audio;

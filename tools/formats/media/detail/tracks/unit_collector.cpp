@@ -11,6 +11,7 @@ namespace animeme::media {
 namespace {
 
 constexpr std::int64_t kLatest = std::int64_t(1) << 47;
+constexpr double kRoom = 0.75;  // for a lost unit, of a frame
 
 }  // namespace
 
@@ -76,7 +77,7 @@ Result<void> UnitCollector::add(const AVPacket& packet, AVRational time_base) {
     lose();
     return {};
   }
-  if (units_.size() >= options_.max_units || bytes_ + bytes.size() > options_.max_bytes) {
+  if (passed_ + units_.size() >= options_.max_units || bytes_ + bytes.size() > options_.max_bytes) {
     return too_long();
   }
   if (wait_for_intra_ && lost_ > 0) gaps_.push_back(units_.size());
@@ -95,7 +96,69 @@ Result<void> UnitCollector::add(const AVPacket& packet, AVRational time_base) {
                       last_duration_});
     bytes = bytes.subspan(piece.size);
   }
+  if (!take_) return {};
+  std::size_t whole = 0;
+  for (; whole + 1 < units_.size(); ++whole) {
+    units_[whole].duration = units_[whole + 1].time - units_[whole].time;
+    if (auto done = pass(units_[whole]); !done) return done;
+  }
+  units_.erase(units_.begin(), units_.begin() + std::ptrdiff_t(whole));
   return {};
+}
+
+// The decoder tells whether there is something to repair; see fba::repair_units().
+Result<void> UnitCollector::pass(fba::AccessUnit& unit) {
+  if (const auto header = fba::read_plane_header(unit.bytes)) {
+    if (header->temporal.rate) rate_ = header->temporal.rate->rate();
+    const double time = double(unit.time) * av_q2d(base_);
+    jumps_ = jumps_ || (passed_ > 0 && time - expected_ > rate_.seconds(kRoom));
+    expected_ = time + rate_.seconds(1 + double(header->temporal.skip.value_or(0)));
+  }
+  if (passed_++ == 0) first_time_ = unit.time;
+  last_passed_duration_ = unit.duration;
+  decoder_.push(unit.bytes);
+  for (;;) {
+    const auto event = decoder_.next();
+    if (!event) {
+      intact_ = intact_ && event.error().code == Code::need_data;
+      break;
+    }
+    intact_ = intact_ && event->kind != fba::Event::Kind::warning;
+    decoded_ += event->kind == fba::Event::Kind::plane ? 1 : 0;
+  }
+  unit.duration *= base_.num;
+  return take_(unit, config_);
+}
+
+Result<bool> UnitCollector::finish_passing(std::int64_t shift, bool find_gaps,
+                                           FaceSummary& result) {
+  const bool stated = read_visual_headers(config_).kind == VisualKind::face;
+  if (units_.empty() || lost_ > 0 || late_ > 0 || !gaps_.empty() || !stated) return false;
+  fba::AccessUnit& last = units_.back();
+  const std::int64_t time = last.time;
+  if (last.duration <= 0) {
+    if (passed_ == 0) return false;
+    last.duration = last_passed_duration_;
+  }
+  const std::int64_t duration = last.duration;
+  if (auto done = pass(last); !done) return done.error();
+  decoder_.push(fba::end_code());
+  decoder_.finish();
+  for (;;) {
+    const auto event = decoder_.next();
+    if (!event) {
+      intact_ = intact_ && event.error().code == Code::end_of_stream;
+      break;
+    }
+    intact_ = intact_ && event->kind != fba::Event::Kind::warning;
+    decoded_ += event->kind == fba::Event::Kind::plane ? 1 : 0;
+  }
+  result.visual_profile = read_visual_headers(config_).profile;
+  result.timescale = std::uint32_t(base_.den);
+  result.units = passed_;
+  result.start = (first_time_ - shift) * base_.num;
+  result.end = (time + duration - shift) * base_.num;
+  return intact_ && decoded_ == passed_ && !(find_gaps && jumps_);
 }
 
 void UnitCollector::set_durations() {
@@ -119,7 +182,6 @@ void add_damage_at_end(Container& file, std::string reason, std::int64_t frames)
 }
 
 void UnitCollector::find_gaps(bool noticed) {
-  constexpr double kRoom = 0.75;      // of a frame
   constexpr std::size_t kUsual = 20;  // more than one in so many: their times mean something else
   std::vector<std::size_t> found;
   fap::Rate rate{30, 1};

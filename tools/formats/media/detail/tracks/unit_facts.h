@@ -35,6 +35,15 @@ inline std::int64_t peak_bit_rate(const fba::AccessUnits& face) {
   return peak;
 }
 
+/// Buffer and bit rate that a decoder needs.
+struct BufferFacts {
+  std::size_t largest = 0;     ///< bytes of the largest access unit
+  std::int64_t peak_bits = 0;  ///< most bits in any second
+};
+inline BufferFacts buffer_facts(const fba::AccessUnits& face) {
+  return {largest_unit(face), peak_bit_rate(face)};
+}
+
 /// Bits a second over the whole clip.
 inline std::int64_t mean_bit_rate(const fba::AccessUnits& face) {
   if (face.units.empty()) return 0;
