@@ -397,6 +397,11 @@ void Splicer::pass(const Plane& plane) {
   impl_->part();
 }
 
+void Splicer::refresh() {
+  impl_->state = Impl::State::nothing;
+  impl_->out = {};
+}
+
 Result<void> Splicer::copy(const Plane& plane) { return impl_->copy(plane, plane.temporal.skip); }
 Result<void> Splicer::copy(const Plane& plane, std::uint32_t skip) {
   if (skip == 0 && plane.temporal.skip != 0U) return impl_->copy(plane, std::nullopt);

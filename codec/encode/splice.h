@@ -70,6 +70,10 @@ class Splicer {
   /// cut on that lies within the frames that it skips.
   Result<void> copy_last(std::uint32_t skip);
 
+  /// The next plane is coded as an intra plane with everything that receivers show, for those that
+  /// have received nothing before it, too. The planes behind it are coded again, as behind a cut.
+  void refresh();
+
   /// Calls these for the next plane of a source of which the frames from `first` up to `end`, by
   /// Plane::number, are wanted: a plane that is shown within them is written, as long as it is.
   /// The first of them is held for `hold` more frames. False: no later plane is wanted.

@@ -3,6 +3,7 @@
 //
 //     build/release/bin/loss_table             in virtual time, without sockets
 //     build/release/bin/loss_table --sockets   in real time, over the sockets of this machine
+//     build/release/bin/loss_table --requests  receivers that ask for intra planes
 //
 // 25 planes a second with an intra plane each second, and AAC beside it. A plane counts as right if
 // FaceRecovery gives it out and it decodes to the values that were sent.
@@ -12,7 +13,9 @@
 #include <chrono>
 #include <cstdio>
 #include <thread>
+#include <tuple>
 
+#include "tests/formats/media/live/intra_requests.h"
 #include "tests/formats/media/live/rtp_sockets.h"
 #include "tests/formats/media/live/rtp_support.h"
 #include "tools/formats/media/live/open.h"
@@ -27,6 +30,7 @@ struct Settings {
   int networks = 20;
   int period = 25;
   bool sockets = false;
+  bool requests = false;
 };
 
 struct Row {
@@ -113,6 +117,39 @@ Row measure(const test::LiveTalk& talk, const Settings& settings, const test::Tr
   return row;
 }
 
+// Intra planes each second, and each ten seconds without and with requests.
+void print_requests(const Settings& settings) {
+  std::printf(
+      "| loss | intra planes | planes right | freezes a minute | mean freeze | longest | face |\n"
+      "|---|---|---|---|---|---|---|\n");
+  for (const int loss : {0, 1, 2, 5}) {
+    for (const auto& [period, requests, name] :
+         {std::tuple(1, false, "each second"), std::tuple(10, false, "each 10 s"),
+          std::tuple(10, true, "each 10 s and on request")}) {
+      const test::LiveTalk talk = test::random_talk(settings.seconds * 25, 25 * period);
+      RecoveryStats sum;
+      double bytes = 0;
+      for (int network = 1; network <= settings.networks; ++network) {
+        const test::AskedRun one =
+            test::run_asking(talk, requests, {.loss = loss}, std::uint64_t(network));
+        bytes += one.bytes;
+        sum.usable += one.recovery.usable;
+        sum.dropped += one.recovery.dropped;
+        sum.lost += one.recovery.lost;
+        sum.freezes += one.recovery.freezes;
+        sum.frozen_seconds += one.recovery.frozen_seconds;
+        sum.longest_seconds = std::max(sum.longest_seconds, one.recovery.longest_seconds);
+      }
+      const double seconds = double(settings.seconds) * settings.networks;
+      std::printf("| %d %% | %s | %.1f %% | %.1f | %.2f s | %.2f s | %.1f kbit/s |\n", loss, name,
+                  100 * sum.share(), 60 * double(sum.freezes) / seconds,
+                  sum.freezes > 0 ? sum.frozen_seconds / double(sum.freezes) : 0.0,
+                  sum.longest_seconds, bytes * 8 / 1000 / seconds);
+      std::fflush(stdout);
+    }
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -124,7 +161,12 @@ int main(int argc, char** argv) {
   app.add_option("--period", settings.period, "planes from one intra plane to the next")
       ->check(CLI::Range(1, 1000));
   app.add_flag("--sockets", settings.sockets, "real time over sockets, one network");
+  app.add_flag("--requests", settings.requests, "receivers that ask for intra planes");
   CLI11_PARSE(app, argc, argv);
+  if (settings.requests) {
+    print_requests(settings);
+    return ::testing::Test::HasFailure() ? 1 : 0;
+  }
   if (settings.sockets) settings.networks = 1;
 
   test::LiveTalk talk = test::random_talk(settings.seconds * 25, settings.period);

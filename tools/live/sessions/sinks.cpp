@@ -58,7 +58,19 @@ Result<void> Sinks::start(const media::LiveInfo& info) {
 }
 
 Result<void> Sinks::send(const media::LiveUnit& unit) {
-  return each([&](media::LiveSink& sink) { return sink.send(unit); });
+  if (unit.track != media::LiveTrack::face) {
+    return each([&](media::LiveSink& sink) { return sink.send(unit); });
+  }
+  bool wanted = false;
+  for (const Address& address : addresses_) {
+    if (!address.broken && address.sink->intra_wanted()) wanted = true;
+  }
+  std::optional<fba::RecodedUnit> recoded = face_.pass(unit.bytes, wanted);
+  if (!recoded) return each([&](media::LiveSink& sink) { return sink.send(unit); });
+  media::LiveUnit own = unit;
+  own.bytes = std::move(recoded->bytes);
+  own.intra = recoded->intra;
+  return each([&](media::LiveSink& sink) { return sink.send(own); });
 }
 
 Result<void> Sinks::tell(const std::string& json) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "codec/encode/intra_on_request.h"
 #include "fap/result.h"
 #include "tools/formats/files/log.h"
 #include "tools/live/sessions/address.h"
@@ -31,7 +32,8 @@ class Sinks {
 
   /// Warns if a web server is open to other machines. Errors: of any address.
   Result<void> start(const media::LiveInfo& info);
-  /// Errors: when the last address breaks.
+  /// A unit of the face becomes an intra plane if a receiver of an address has asked for one, for
+  /// all addresses. Errors: when the last address breaks.
   Result<void> send(const media::LiveUnit& unit);
   Result<void> tell(const std::string& json);  ///< LiveSink::tell() for all
   Result<void> poll();                         ///< LiveSink::poll() for all
@@ -47,6 +49,7 @@ class Sinks {
   Result<void> each(Act act);
 
   std::vector<Address> addresses_;
+  fba::IntraOnRequest face_;
   tools::Log log_;
 };
 

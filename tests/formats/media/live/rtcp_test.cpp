@@ -16,6 +16,7 @@ RtcpMessage some_message() {
   message.reports.push_back({0xAABBCCDE, std::nullopt, {block, block}});
   message.names = {{0xAABBCCDD, "animeme"}, {0xAABBCCDE, "x"}, {1, ""}, {2, "abc"}};
   message.byes = {0xAABBCCDD, 9};
+  message.requests = {{5, 6, std::nullopt}, {5, 6, 255}};
   return message;
 }
 
@@ -23,6 +24,17 @@ TEST(Rtcp, CompoundComesBackAsItWas) {
   const Bytes wire = write_rtcp(some_message());
   EXPECT_EQ(wire.size() % 4, 0u);
   EXPECT_EQ(read_rtcp(wire), some_message());
+}
+
+// RFC 4585, section 6.3.1; RFC 5104, section 4.3.1.
+TEST(Rtcp, RequestsAreThoseOfTheRfc) {
+  RtcpMessage message;
+  message.requests = {{1, 2, std::nullopt}};
+  EXPECT_EQ(write_rtcp(message), (Bytes{0x81, 206, 0, 2, 0, 0, 0, 1, 0, 0, 0, 2}));
+  message.requests = {{1, 2, 9}};
+  EXPECT_EQ(write_rtcp(message),
+            (Bytes{0x84, 206, 0, 4, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 2, 9, 0, 0, 0}));
+  EXPECT_EQ(read_rtcp(Bytes{0x81, 206, 0, 1, 0, 0, 0, 1}), std::nullopt);
 }
 
 TEST(Rtcp, SenderReportIsThatOfTheRfc) {
@@ -57,8 +69,9 @@ TEST(Rtcp, DamagedPacketsAreRefused) {
   for (std::size_t size = 0; size < wire.size(); ++size) {
     refused += read_rtcp({wire.data(), size}) ? 0 : 1;
   }
-  // It ends well only where a packet of the compound does: two reports and the names.
-  EXPECT_EQ(refused, int(wire.size()) - 3);
+  // It ends well only where a packet of the compound does: two reports, names, goodbyes and a
+  // request.
+  EXPECT_EQ(refused, int(wire.size()) - 5);
   EXPECT_FALSE(read_rtcp(Bytes{0x40, 201, 0, 1, 0, 0, 0, 1}));  // version 1
   EXPECT_FALSE(read_rtcp(Bytes{0x81, 201, 0, 1, 0, 0, 0, 1}));  // a block that is not there
   EXPECT_FALSE(read_rtcp(Bytes{0x81, 202, 0, 1, 0, 0, 0, 1}));  // a name that is not there

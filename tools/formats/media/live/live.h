@@ -81,6 +81,9 @@ class LiveSink {
     (void)json;
     return {};
   }
+  /// Has a receiver asked for an intra plane since the last call? The next unit of the face should
+  /// be one then; until the call after it the answer is no.
+  virtual bool intra_wanted() { return false; }
   /// Maintains connections and sends reports; call it at least ten times a second.
   virtual Result<void> poll() = 0;
   /// Says goodbye and closes.

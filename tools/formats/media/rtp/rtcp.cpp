@@ -10,7 +10,16 @@
 namespace animeme::media {
 namespace {
 
-enum PacketType : std::uint8_t { kSender = 200, kReceiver = 201, kNames = 202, kBye = 203 };
+enum PacketType : std::uint8_t {
+  kSender = 200,
+  kReceiver = 201,
+  kNames = 202,
+  kBye = 203,
+  kPayloadFeedback = 206,
+};
+// Formats of kPayloadFeedback.
+constexpr std::size_t kPictureLoss = 1;
+constexpr std::size_t kFullIntra = 4;
 constexpr std::uint8_t kCname = 1;
 constexpr std::size_t kMaxCount = 31;
 
@@ -123,10 +132,34 @@ bool read_byes(WireReader in, std::size_t count, RtcpMessage& message) {
   return !in.failed();
 }
 
+void write_request(ByteVector& out, const IntraRequest& request) {
+  const PacketWriter packet(out, kPayloadFeedback, request.sequence ? kFullIntra : kPictureLoss);
+  put(out, request.ssrc, 4);
+  put(out, request.sequence ? 0 : request.media, 4);
+  if (!request.sequence) return;
+  put(out, request.media, 4);
+  put(out, *request.sequence, 1);
+  put(out, 0, 3);
+}
+
+bool read_request(WireReader in, std::size_t format, RtcpMessage& message) {
+  const std::uint32_t ssrc = in.u32();
+  const std::uint32_t media = in.u32();
+  if (in.failed()) return false;
+  if (format == kPictureLoss) message.requests.push_back({ssrc, media, std::nullopt});
+  while (format == kFullIntra && in.left() >= 8) {
+    const std::uint32_t wanted = in.u32();
+    message.requests.push_back({ssrc, wanted, in.u8()});
+    in.get(3);
+  }
+  return true;
+}
+
 bool read_packet(ByteSpan body, std::uint8_t type, std::size_t count, RtcpMessage& message) {
   const WireReader in(body);
   if (type == kNames) return read_names(in, count, message);
   if (type == kBye) return read_byes(in, count, message);
+  if (type == kPayloadFeedback) return read_request(in, count, message);
   if (type != kSender && type != kReceiver) return true;
   return read_report(in, PacketType(type), count, message);
 }
@@ -143,6 +176,7 @@ std::vector<std::uint8_t> write_rtcp(const RtcpMessage& message) {
       put(out, message.byes[i], 4);
     }
   }
+  for (const IntraRequest& request : message.requests) write_request(out, request);
   return out;
 }
 

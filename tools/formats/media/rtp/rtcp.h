@@ -1,6 +1,7 @@
 /// @file
 /// RTCP: sender reports relate RTP times to a wall clock, to synchronise face and sound; receiver
-/// reports inform the sender about losses. Source: RFC 3550 section 6.
+/// reports inform the sender about losses. Source: RFC 3550 section 6, RFC 4585
+/// section 6.3.1, RFC 5104 section 4.3.1.
 #pragma once
 
 #include <cstdint>
@@ -51,11 +52,22 @@ struct RtcpName {
   friend bool operator==(const RtcpName&, const RtcpName&) = default;
 };
 
+/// A receiver asks for an intra plane: picture loss indication (RFC 4585), or full intra request
+/// (RFC 5104).
+struct IntraRequest {
+  std::uint32_t ssrc = 0;                ///< of the receiver
+  std::uint32_t media = 0;               ///< of the sender
+  std::optional<std::uint8_t> sequence;  ///< full intra request: the same in repeats of one request
+
+  friend bool operator==(const IntraRequest&, const IntraRequest&) = default;
+};
+
 /// A compound packet. Written in this order.
 struct RtcpMessage {
-  std::vector<RtcpReport> reports;  ///< usually one
-  std::vector<RtcpName> names;      ///< at most 31
-  std::vector<std::uint32_t> byes;  ///< senders that leave; at most 31
+  std::vector<RtcpReport> reports;          ///< usually one
+  std::vector<RtcpName> names;              ///< at most 31
+  std::vector<std::uint32_t> byes;          ///< senders that leave; at most 31
+  std::vector<IntraRequest> requests = {};  ///< each is a packet
 
   friend bool operator==(const RtcpMessage&, const RtcpMessage&) = default;
 };

@@ -57,7 +57,7 @@ struct RtpReceiveOptions {
   /// Maximum wait at the start for the sender reports that synchronise face and sound, 0..10. Not
   /// needed if the session description has the media clock, as ours does.
   double sync_seconds = 0.5;
-  bool send_reports = true;  ///< receiver reports back to the sender
+  bool send_reports = true;  ///< receiver reports back to the sender, and intra requests (PLI)
   /// Allows a sender to use several addresses and ports (a farm of relays). Anyone who can see its
   /// packets can then impersonate it.
   bool any_source = false;

@@ -169,6 +169,10 @@ void RtpReceiver::push(LiveEvent event) {
     for (const Source& each : sources_) push(LiveGap{each.track, 0});
   }
   waiting_bytes_ += cost(event);
+  const LiveGap* gap = std::get_if<LiveGap>(&event);
+  if (gap != nullptr && gap->track == LiveTrack::face) wants_intra_ = true;
+  const LiveUnit* unit = std::get_if<LiveUnit>(&event);
+  if (unit != nullptr && unit->track == LiveTrack::face && unit->intra) wants_intra_ = false;
   pending_.push_back(std::move(event));
 }
 

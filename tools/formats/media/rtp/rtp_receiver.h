@@ -48,7 +48,8 @@ class RtpReceiver {
   std::optional<LiveEvent> next(double now);
   /// When next() returns something even without a further datagram; in the past: now.
   std::optional<double> deadline() const;
-  /// Receiver reports that are due: about every five seconds.
+  /// Receiver reports that are due: about every five seconds. Where planes are missing, requests
+  /// for an intra plane, at once and every quarter of a second until one arrives.
   std::vector<RtpDatagram> reports(double now);
 
   ReceiveStats stats() const;                        ///< of both media
@@ -91,6 +92,8 @@ class RtpReceiver {
   std::deque<LiveEvent> ready_;    // what an earlier sender has left
   std::size_t waiting_bytes_ = 0;
   bool overflowed_ = false;
+  bool wants_intra_ = true;  // none since planes are missing, or at all
+  double next_request_ = 0;  // for an intra plane
   bool announced_ = false;
   bool ended_ = false;
   std::int64_t sessions_ = 0;

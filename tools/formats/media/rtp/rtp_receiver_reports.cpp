@@ -5,6 +5,12 @@
 
 namespace animeme::media {
 
+namespace {
+
+constexpr double kRequestSeconds = 0.25;  // between requests for an intra plane
+
+}  // namespace
+
 // Half to one and a half times five seconds, as RFC 3550 section 6.2 asks, so that receivers that
 // began together do not report together.
 double RtpReceiver::report_interval() {
@@ -16,6 +22,15 @@ double RtpReceiver::report_interval() {
 
 std::vector<RtpDatagram> RtpReceiver::reports(double now) {
   std::vector<RtpDatagram> out;
+  const Source* face = source(LiveTrack::face);
+  const auto sender = face != nullptr ? face->input.ssrc() : std::nullopt;
+  if (options_.send_reports && sender && wants_intra_ && now >= next_request_) {
+    next_request_ = now + kRequestSeconds;
+    RtcpMessage message;
+    message.reports.push_back({id_, std::nullopt, {}});
+    message.requests.push_back({id_, *sender, std::nullopt});
+    out.push_back({LiveTrack::face, true, write_rtcp(message)});
+  }
   for (Source& each : sources_) {
     if (!options_.send_reports || !each.begun || now < each.next_report) continue;
     const bool first = each.next_report == 0;

@@ -221,7 +221,29 @@ void RtpSender::rtcp(std::span<const std::uint8_t> datagram, double now) {
       }
     }
   }
-  for (const std::uint32_t ssrc : message->byes) listeners_.remove(ssrc);
+  for (const std::uint32_t ssrc : message->byes) {
+    listeners_.remove(ssrc);
+    full_requests_.erase(ssrc);
+  }
+  const Track* face = find(LiveTrack::face);
+  for (const IntraRequest& request : message->requests) {
+    if (face == nullptr || request.media != face->packets.ssrc()) continue;
+    if (request.sequence) {
+      const auto last = full_requests_.find(request.ssrc);
+      if (last != full_requests_.end() && last->second == *request.sequence) continue;
+      constexpr std::size_t kMostReceivers = 1024;  // remembered
+      if (full_requests_.size() >= kMostReceivers) full_requests_.clear();
+      full_requests_[request.ssrc] = *request.sequence;
+    }
+    intra_wanted_ = true;
+  }
+}
+
+bool RtpSender::intra_wanted(double now) {
+  if (!intra_wanted_ || now < intra_given_ + kLeastIntraSeconds) return false;
+  intra_wanted_ = false;
+  intra_given_ = now;
+  return true;
 }
 
 SendStats RtpSender::stats(double now) const {

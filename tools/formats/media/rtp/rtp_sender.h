@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,6 +21,9 @@ namespace animeme::media {
 /// Errors: invalid_argument (an option outside its range; an empty presentation; a time scale of 0
 /// or above kMaxTimescale; a sample rate of 0).
 Result<void> check(const LiveInfo& info, const RtpOptions& options);
+
+/// Intra planes on request come no oftener, whoever asks: anybody can send a request.
+inline constexpr double kLeastIntraSeconds = 0.1;
 
 /// Sends both media of a session.
 class RtpSender {
@@ -42,6 +46,9 @@ class RtpSender {
   void finish(double now, Datagrams& out);
   /// Takes a report of a receiver.
   void rtcp(std::span<const std::uint8_t> datagram, double now);
+
+  /// LiveSink::intra_wanted(). Requests within kLeastIntraSeconds of the last answer wait.
+  bool intra_wanted(double now);
 
   /// `packets` and `bytes` count RTCP, too.
   SendStats stats(double now) const;
@@ -74,6 +81,9 @@ class RtpSender {
   std::optional<double> zero_;  // when time 0 is, or was
   RtpListeners listeners_;
   SendStats stats_;
+  bool intra_wanted_ = false;
+  double intra_given_ = -kLeastIntraSeconds;             // when the last answer was
+  std::map<std::uint32_t, std::uint8_t> full_requests_;  // by receiver: the last one
 };
 
 }  // namespace animeme::media

@@ -51,6 +51,11 @@ class RtpSink : public LiveSink {
     return transmit(out);
   }
 
+  bool intra_wanted() override {
+    // What has just arrived counts for the next plane.
+    return sender_ && poll() && sender_->intra_wanted(now());
+  }
+
   Result<void> finish() override {
     if (!sender_) return {};
     RtpSender::Datagrams out;
