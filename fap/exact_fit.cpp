@@ -66,6 +66,7 @@ ExactFit::Left ExactFit::left_of(const FapValues& target) const {
     if (!mask_[f]) continue;
     left.worst = std::max(left.worst, std::abs(off[f]));
     left.squares += off[f] * off[f];
+    if (!is_lid_or_brow(int(f))) left.below += off[f] * off[f];
   }
   return left;
 }
@@ -122,12 +123,13 @@ const std::vector<double>& ExactFit::fit(const Mask& mask, const FapValues& targ
   set_mask(mask);
   const std::size_t n = columns_.size();
   wanted_.assign(n, 0);
-  double all = 0;
+  double all = 0, below = 0;
   std::size_t count = 0;
   for (std::size_t f = kFirstLowLevel; f <= kFapCount; ++f) {
     if (!mask_[f]) continue;
     ++count;
     all += target[f] * target[f];
+    if (!is_lid_or_brow(int(f))) below += target[f] * target[f];
     for (std::size_t i = 0; i < n; ++i) wanted_[i] += columns_[i][f] * target[f];
   }
   std::fill(weights_.begin(), weights_.end(), 0.0);
@@ -145,7 +147,10 @@ const std::vector<double>& ExactFit::fit(const Mask& mask, const FapValues& targ
   }
   left = use_one_of_lids(target, rest, left);
   left = use_one_of_opposites(target, rest, left);
-  const double share = all > 0 ? std::sqrt(left.squares / all) : 0;
+  // A blink is so large that the rest would seem to be made of the shapes whatever it is: the lips
+  // of a P would part while the eyes are closed.
+  double share = all > 0 ? std::sqrt(left.squares / all) : 0;
+  if (below > 0) share = std::max(share, std::sqrt(left.below / below));
   certainty_ = left.worst <= kRoundedOff ? 1 : std::clamp(2 - share / kMadeOfThem, 0.0, 1.0);
   return weights_;
 }

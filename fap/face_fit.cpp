@@ -25,7 +25,6 @@ constexpr double kBlinkLookingDown = 0.15, kLooksDown = 0.2;
 constexpr double kBothLids = 0.04;  // opposite lids that are seen by nobody
 
 bool is_gaze(int fap) { return fap >= 23 && fap <= 26; }
-bool is_lid_or_brow(int fap) { return (fap >= 19 && fap <= 22) || (fap >= 31 && fap <= 38); }
 
 Mask mask_of(bool (*wanted)(int fap)) {
   Mask mask;

@@ -8,6 +8,9 @@
 
 namespace animeme::fap::internal {
 
+/// What moves apart from the mouth, and may move much more.
+inline bool is_lid_or_brow(int fap) { return (fap >= 19 && fap <= 22) || (fap >= 31 && fap <= 38); }
+
 /// Faces that these very shapes made, as those of a capture are, and whose FAPs were only rounded
 /// or quantised since: the most likely weights. All FAPs count alike, as they are rounded alike,
 /// and small weights are a little more likely than large ones. Frames are independent.
@@ -30,6 +33,7 @@ class ExactFit {
   struct Left {
     double worst = 0;    // of all FAPs, units
     double squares = 0;  // their sum
+    double below = 0;    // likewise without lids and brows
   };
 
   void set_mask(const Mask& mask);

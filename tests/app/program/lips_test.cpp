@@ -98,7 +98,8 @@ TEST(Lips, OfAHeadWithShapesMeetInEveryPBM) {
   const head::Rig rig = head::make_rig(*head);
   ASSERT_EQ(rig.shapes.size(), 52u);
   std::vector<float> gaps;
-  for (const fap::Frame& frame : talk().clip.frames) {
+  for (fap::Frame frame : talk().clip.frames) {
+    for (const std::size_t turn : {48, 49, 50}) frame.value[turn] = 0;  // heights are those of lips
     const auto skin = head::pose(rig, frame).positions[std::size_t(head::Part::skin)];
     float gap = 0;
     for (const auto& [upper, lower] : {std::pair("2.2", "2.3"), {"2.6", "2.8"}, {"2.7", "2.9"}}) {
