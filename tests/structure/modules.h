@@ -33,7 +33,8 @@ inline constexpr Module kModules[] = {
     {"dam/crossmap", "dam/signal"},
     {"dam/model", "dam/signal"},
     {"dam/corpus", "dam/model"},
-    {"dam/speaking", "dam/model"},
+    {"dam/behaviour", "dam/script dam/maths"},
+    {"dam/speaking", "dam/model dam/behaviour"},
     // A kind of model knows no other kind. Their list knows all.
     {"dam/kinds/animeme", "dam/corpus dam/speaking"},
     {"dam/kinds/refined", "dam/corpus dam/speaking"},
@@ -60,7 +61,7 @@ inline constexpr Module kModules[] = {
      "codec/decode fap/xml tools/formats/files"},
     {"tools/app/mpi", "fap tools/formats/common", false},
     {"tools/speech/text", "dam/script"},
-    {"tools/speech/voice", "tools/speech/text tools/formats/media"},
+    {"tools/speech/voice", "dam/behaviour tools/speech/text tools/formats/media"},
     {"tools/speech/talking",
      "dam/speaking codec/encode tools/speech/voice tools/formats/scripts tools/formats/programs"},
     {"tools/view/viewer/rig", "fap/head", false},  // also the page's WebAssembly

@@ -352,6 +352,39 @@ TEST_F(CSpeech, Moods) {
   EXPECT_NE(speak(&options).get(), nullptr);
 }
 
+TEST_F(CSpeech, LooksAndStaysStill) {
+  animeme_speak_options options;
+  animeme_speak_options_init(&options, sizeof options);
+  std::strcpy(options.look, "20,-5");
+  std::strcpy(options.still, "head,brows");
+  options.idle_motion = 0.5;
+  const auto script = dam::read_script(text);
+  ASSERT_TRUE(script);
+  dam::SynthesisOptions synthesis;
+  synthesis.articulation = 1;
+  auto signal = dam::synthesise(*dam::builtin_model(), *script, synthesis);
+  ASSERT_TRUE(signal);
+  dam::IdleMotionOptions idle;
+  idle.liveliness = 0.5;
+  idle.look = *dam::parse_look("20,-5");
+  idle.still.head = idle.still.brows = true;
+  ASSERT_TRUE(dam::add_idle_motion(*signal, *script, idle));
+  expect_same(speak(&options).get(), *dam::to_sequence(*signal));
+  const auto refused = [&](animeme_status status) {
+    animeme_clip* clip = nullptr;
+    animeme_error error;
+    EXPECT_EQ(animeme_speak(model.get(), text.data(), text.size(), &options, &clip, &error), status)
+        << error.message;
+  };
+  std::strcpy(options.look, "up");
+  refused(ANIMEME_SYNTAX);
+  std::strcpy(options.look, "0,80");
+  refused(ANIMEME_OUT_OF_RANGE);
+  options.look[0] = 0;
+  std::strcpy(options.still, "ears");
+  refused(ANIMEME_NOT_FOUND);
+}
+
 TEST_F(CSpeech, AStreamHasTheSameFramesAndOutlivesItsModel) {
   animeme_speak_options options;
   animeme_speak_options_init(&options, sizeof options);

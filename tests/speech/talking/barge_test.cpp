@@ -61,11 +61,11 @@ struct Stage {
   std::optional<LineQueue::Job> job;
   bool joins = false;
 
-  explicit Stage(bool life = false) {
+  explicit Stage(bool life = false, int quant = 0) {
     SpeakerOptions options;
     options.face.idle_motion = life;
     options.events = true;
-    options.fap_quant = 0;  // exactly
+    options.fap_quant = quant;  // 0: exactly
     options.audio = media::AudioSettings{media::AudioCodec::opus};
     auto opened = LiveSpeaker::open(character(), queue, clock, options);
     EXPECT_TRUE(opened);
@@ -226,6 +226,61 @@ TEST_F(Barge, AStopClosesTheMouthIn100MsAndFadesTheSound) {
     // What the encoder has already been given, and 20 ms.
     for (double time = at + 0.1; time < at + 0.9; time += 0.005) {
       EXPECT_LT(level(pcm, time), kSilent) << at << ", " << time;
+    }
+  }
+}
+
+// 200 lines, stops, looks and states at random.
+fap::Sequence restless(bool life, int quant) {
+  Stage stage(life, quant);
+  const char* const commands[] = {R"("stop")",
+                                  R"("look","target":"camera")",
+                                  R"("look","target":"40,-15")",
+                                  R"("look","target":[-0.4,0.1,0.7])",
+                                  R"("look","target":"away")",
+                                  R"("look","target":"-60,40")",
+                                  R"("listen")",
+                                  R"("think")",
+                                  R"("idle")",
+                                  R"("drop")"};
+  std::minstd_rand random(5);
+  double now = 0.3;
+  for (int i = 0; i < 200; ++i) {
+    stage.run(now);
+    const auto kind = random() % 13;
+    if (kind < std::size(commands))
+      stage.push(command(commands[kind]));
+    else
+      stage.push(std::string(1, char('a' + random() % 5)));
+    now += 0.05 * double(random() % 30);
+  }
+  stage.run(now + 2);
+  stage.end();
+  return stage.face();
+}
+
+TEST_F(Barge, LooksAndStopsNeverMakeTheFaceJump) {
+  const fap::Sequence clip = restless(true, 1);
+  ASSERT_GT(clip.frames.size(), 2000u);
+  const auto steps = largest_steps(clip);
+  // A frame has 40 ms: 6 degrees of the head, 4 mm of the brows, an eye from end to end, a lid.
+  for (const std::size_t fap : {48, 49, 50}) EXPECT_LT(steps[fap], 6 * 1745) << fap;
+  for (std::size_t fap = 31; fap <= 36; ++fap) EXPECT_LT(steps[fap], 80) << fap;
+  for (const std::size_t fap : {23, 24}) EXPECT_LT(steps[fap], 70 * 1745) << fap;
+  for (const std::size_t fap : {19, 20}) EXPECT_LE(steps[fap], 1250) << fap;
+  double turned = 0;
+  for (const fap::Frame& frame : clip.frames)
+    turned = std::max(turned, std::abs(double(frame.value[49])) / 1745);
+  EXPECT_GT(turned, 20) << "the head goes along with looks of 60 degrees";
+}
+
+TEST_F(Barge, IdleMotionLeavesTheMouthAlone) {
+  const fap::Sequence still = restless(false, 0), alive = restless(true, 0);
+  ASSERT_EQ(still.frames.size(), alive.frames.size());
+  for (std::size_t i = 0; i < still.frames.size(); ++i) {
+    for (std::size_t fap = 3; fap <= 60; ++fap) {
+      if (fap > 18 && fap < 51) continue;
+      ASSERT_EQ(still.frames[i].value[fap], alive.frames[i].value[fap]) << i << ", FAP " << fap;
     }
   }
 }

@@ -61,6 +61,27 @@ TEST(LineCommand, Moods) {
   EXPECT_FALSE(read_line(R"({"text":"x","mood":"joi"})", true));
 }
 
+TEST(LineCommand, Looks) {
+  for (const bool json : {false, true}) {
+    const LineCommand look = good(R"({"do":"look","target":"20,-5"})", json);
+    EXPECT_EQ(look.what, Do::look);
+    EXPECT_EQ(look.target.kind, dam::Look::Kind::direction);
+    EXPECT_EQ(look.target.yaw, 20);
+    EXPECT_EQ(good(R"({"do":"look","target":[20,-5]})", json).target, look.target);
+    EXPECT_EQ(good(R"({"do":"look","target":[0.5,0,1]})", json).target.x, 0.5);
+    EXPECT_EQ(good(R"({"do":"look","target":"away"})", json).target.kind, dam::Look::Kind::away);
+    EXPECT_EQ(good(R"({"do":"listen"})", json).what, Do::listen);
+    EXPECT_EQ(good(R"({"do":"think"})", json).what, Do::think);
+    EXPECT_EQ(good(R"({"do":"idle"})", json).what, Do::idle);
+    for (const char* wrong :
+         {R"({"do":"look"})", R"({"do":"look","target":7})", R"({"do":"look","target":"up"})",
+          R"({"do":"look","target":[]})", R"({"do":"look","target":["a",1]})",
+          R"({"do":"look","target":[70,0]})", R"({"do":"look","target":{"yaw":3}})"}) {
+      EXPECT_FALSE(read_line(wrong, json)) << wrong;
+    }
+  }
+}
+
 TEST(LineCommand, AllOtherLinesAreSaid) {
   for (const char* text : {"Hello.", "{ is a bracket", "{}", R"({"text": "no do"})", "[1]",
                            "{\"what\" to \"do\" now?", R"(say {"do":"stop"})"}) {

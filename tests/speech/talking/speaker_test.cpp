@@ -272,18 +272,19 @@ TEST_F(Speaker, LifeBlinksWhileIdleAndNeverJumps) {
   lines.waiting.push_back(make_line());
   run(30);
   const fap::Sequence clip = face();
-  int blinks = 0, largest = 0;
+  int blinks = 0, brows = 0, head = 0;
   for (std::size_t i = 1; i < clip.frames.size(); ++i) {
     const auto& before = clip.frames[i - 1].value;
     const auto& now = clip.frames[i].value;
     blinks += before[19] <= 512 && now[19] > 512;
     // Head and brows, which a joint would make jump.
-    for (const int fap : {31, 32, 48, 49, 50})
-      largest = std::max(largest, std::abs(now[fap] - before[fap]));
+    for (const int fap : {31, 32}) brows = std::max(brows, std::abs(now[fap] - before[fap]));
+    for (const int fap : {48, 49, 50}) head = std::max(head, std::abs(now[fap] - before[fap]));
   }
   EXPECT_GE(blinks, 4);
   EXPECT_LE(blinks, 15);
-  EXPECT_LT(largest, 800);  // 0.5 degrees a frame
+  EXPECT_LT(brows, 60);       // 4 mm in 40 ms
+  EXPECT_LT(head, 5 * 1745);  // 5 degrees
 }
 
 TEST_F(Speaker, SoundOfAnotherRateIsConverted) {

@@ -14,6 +14,7 @@
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/face_stream.h"
 #include "tools/app/commands/face_text.h"
+#include "tools/app/commands/idle_options.h"
 #include "tools/app/commands/mood_options.h"
 #include "tools/app/commands/motion_options.h"
 #include "tools/app/commands/preview.h"
@@ -27,6 +28,7 @@
 #include "tools/formats/files/cost.h"
 #include "tools/formats/media/container.h"
 #include "tools/speech/talking/marks.h"
+#include "tools/speech/voice/pitch.h"
 
 namespace animeme::tools {
 
@@ -45,7 +47,8 @@ struct SpeakOptions {
   SoundSettings sound;
   dam::SynthesisOptions motion;
   bool no_closure = false;
-  std::optional<bool> idle_motion;  // nothing: where it can be had
+  IdleOptions idle;                     // neither on nor off: where it can be had
+  std::optional<dam::Prosody> prosody;  // of the voice, for it
   bool exact = false;
   std::string visemes, expressions;  // where FAP 1 and 2 go
   std::string mood;
@@ -53,7 +56,6 @@ struct SpeakOptions {
   bool no_words = false;
   bool subtitles = false;
   bool language_told = false;
-  std::uint64_t seed = 1;
   std::optional<double> least;  // confidence
   bool json = false;
   std::shared_ptr<const media::EncodedAudio> coded;  // of --audio-codec copy
@@ -281,10 +283,14 @@ Result<int> write_output(const SpeakOptions& options, dam::Signal signal,
   const bool plain = curves || options.visemes == "instead";
   // A lossless stream cannot hold a tongue that curls: FAP 47 goes far beyond 1860 units.
   if (options.tongue && !plain && options.stream.quant > 0) dam::add_tongue(signal, spoken.script);
-  if (options.idle_motion.value_or(!plain)) {
+  if (options.idle.on.value_or(!plain)) {
     // Without being asked: where the names of a rig are not known, writing will say what it needs.
-    auto added = dam::add_idle_motion(signal, spoken.script, {1, options.seed});
-    if (!added && options.idle_motion.has_value()) return added.error();
+    dam::IdleMotionOptions idle = options.idle.motion;
+    if (options.prosody) idle.prosody = &*options.prosody;
+    // Without quantisation, angles end at one degree.
+    if (options.stream.quant == 0) idle.still.gaze = idle.still.head = true;
+    auto added = dam::add_idle_motion(signal, spoken.script, idle);
+    if (!added && options.idle.on.has_value()) return added.error();
   }
   const dam::MoodTrack moods(mood_of(options.mood), spoken.moods);
   if (!curves || !options.mood.empty()) {
@@ -416,6 +422,8 @@ Result<int> run(SpeakOptions& options) {
   }
   Result<int> written = kOk;
   SpeakOptions one = options;
+  if (spoken->audio && options.idle.on.value_or(true))
+    one.prosody = voice::measure_prosody(*spoken->audio);
   for (const std::string& output : options.outputs) {
     one.output = output;
     written = write_output(one, *signal, *spoken);
@@ -457,9 +465,7 @@ void add_options(OptionTable& cli, SpeakOptions& options) {
   add_motion_options(cli, options.motion);
   cli.add("--no-closure", options.no_closure,
           "Do not force lip closure on p, b, m and lip-teeth contact on f, v");
-  cli.add("--idle-motion,.--life,!--no-idle-motion,!.--no-life", options.idle_motion,
-          "Add blinks, and small motion of brows and head that follows the stresses; "
-          "default: yes, but not for curves of the model (.csv)");
+  add_idle_options(cli, options.idle, "default: on, but not for curves of the model (.csv)");
   add_tongue_option(cli, options.tongue);
   add_mood_option(cli, options.mood);
   cli.add(
@@ -479,9 +485,6 @@ void add_options(OptionTable& cli, SpeakOptions& options) {
   add_subtitles_option(cli, options.subtitles);
   cli.get("--lang")->sets(options.language_told);
   add_exact_option(cli, options.exact);
-  cli.add("--seed", options.seed, "Random seed of idle motion: times of blinks, sway of the head")
-      ->value("NUMBER=1")
-      ->between(0, 1e9);
   add_stream_options(cli, options.stream);
   add_preview_option(cli, options.preview);
   add_sound_options(cli, options.sound, true);
@@ -494,7 +497,7 @@ void add_options(OptionTable& cli, SpeakOptions& options) {
   cli.show_in_help_all(
       "Details of coding and alignment",
       "--rms --kbps --intra-seconds --audio-codec --audio-bitrate --exact --min-confidence "
-      "--no-tongue --visemes --expressions");
+      "--no-tongue --visemes --expressions --look --still --seed");
 }
 
 }  // namespace

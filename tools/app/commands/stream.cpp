@@ -37,7 +37,7 @@ std::string bad_options(const StreamOptions& options) {
   if (voice && (what.loop || options.fast)) {
     return "--loop and --fast are for clips, --say-audio comes in its own time";
   }
-  if (voice && what.idle_motion) return "--idle-motion is for clips and --say";
+  if (voice && options.idle.on.value_or(false)) return "--idle-motion is for clips and --say";
   if (voice && !options.mood.empty()) return "--mood is for clips and --say";
   if (said && !what.spoken.audio.empty()) {
     return "--audio goes with a face, not with --say, whose voice speaks as the lines come";
@@ -235,6 +235,8 @@ Result<int> run(StreamOptions& options) {
   Result<fap::Rate> rate = fap::parse_rate(options.rate);
   if (!rate) return rate.error();
   options.program.mood = mood_of(options.mood);
+  options.program.idle_motion = options.idle.on.value_or(true);
+  options.program.idle = options.idle.motion;
   if (!options.pcm.empty()) {
     const auto bare = speech::parse_bare_sound(options.pcm);
     if (!bare) return bare.error();
@@ -286,7 +288,7 @@ const Command kStream{
     "  animeme stream talk.mp4 --to rtp://192.0.2.7:5004 --sdp talk.sdp --loop\n"
     "  animeme stream talk.fba --audio talk.wav --to udp://239.1.2.3:5004 --intra-seconds 1\n"
     "  animeme stream --text \"Hello\" --to srt://192.0.2.7:5005 --to http://127.0.0.1:8080\n"
-    "  my_chat_bot | animeme stream --say - --idle-motion --to rtp://192.0.2.7:5004 --sdp bot.sdp "
+    "  my_chat_bot | animeme stream --say - --to rtp://192.0.2.7:5004 --sdp bot.sdp "
     "--stats\n"
     "  arecord -q -f S16_LE -r 16000 | animeme stream --say-audio - --to http://127.0.0.1:8080\n"
     "  my_chat_bot | animeme stream --say - --control bot.sock --to http://127.0.0.1:8080 --events "

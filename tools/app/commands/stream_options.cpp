@@ -1,6 +1,7 @@
 #include "tools/app/commands/stream_options.h"
 
 #include "tools/app/commands/head_options.h"
+#include "tools/app/commands/idle_options.h"
 #include "tools/app/commands/mood_options.h"
 #include "tools/app/commands/motion_options.h"
 #include "tools/app/commands/options.h"
@@ -55,12 +56,7 @@ void add_source_options(OptionTable& cli, StreamOptions& options) {
   options.program.motion.tongue = true;
   add_tongue_option(cli, options.program.motion.tongue);
   add_mood_option(cli, options.mood);
-  cli.add("--idle-motion,.--life", options.program.idle_motion,
-          "Add blinks, and small motion of brows and head");
-  cli.add("--seed", options.program.seed,
-          "Random seed of idle motion: times of blinks, sway of the head")
-      ->needs("--idle-motion")
-      ->between(0, 1e9);
+  add_idle_options(cli, options.idle, "default: on, but not with --say-audio");
 }
 
 void add_coding_options(OptionTable& cli, StreamOptions& options) {
@@ -150,8 +146,8 @@ void add_options(OptionTable& cli, StreamOptions& options) {
   cli.add("--json", options.json, "Print a machine-readable summary at the end");
   cli.show_in_help_all(
       "Voices, coding and transport",
-      "--tier --speaker --speak-marks --script-format --max-seconds --speed --pitch --seed --mtu "
-      "--repeat --repeat-after "
+      "--tier --speaker --speak-marks --script-format --max-seconds --speed --pitch --liveliness "
+      "--look --still --seed --no-tongue --mtu --repeat --repeat-after "
       "--bundle --max-clients --max-per-address --allow-origin --host-name --delay --intra-seconds "
       "--points --shape-name --shape-names --gain --copy --quant --rms --kbps --small --sharpness "
       "--articulate "

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tools/app/commands/face_stream.h"
+#include "tools/app/commands/idle_options.h"
 #include "tools/app/commands/shown_heads.h"
 #include "tools/live/sessions/address.h"
 #include "tools/live/sessions/program.h"
@@ -26,6 +27,7 @@ struct StreamOptions {
   StreamSettings limits;         ///< --rms, --kbps and --small
   std::string rate = "25";       ///< --rate
   std::string mood;              ///< --mood
+  IdleOptions idle;              ///< --idle-motion and its like
   std::string pcm;               ///< --pcm
   std::string events;            ///< --events
   bool no_sound = false;         ///< --no-sound

@@ -328,13 +328,19 @@ typedef struct animeme_speak_options {
   double sharpness;     ///< 1; 0..3, quickness
   double articulation;  ///< -1; 0..2, clarity of vowels; below 0: that of the model
   double tail;          ///< 0; 0..60 seconds after the script
-  double idle_motion;  ///< 1; 0..2, brows and head; below 0: no blinks either. animeme_speak() only
-  uint64_t seed;       ///< 1; seed of the idle motion
-  double look_ahead;   ///< -1; seconds, 0..60; below 0: unlimited. animeme_speech only
+  double idle_motion;   ///< 1; 0..2, liveliness; 0 and below: no idle motion. animeme_speak() only
+  uint64_t seed;        ///< 1; seed of the idle motion
+  double look_ahead;    ///< -1; seconds, 0..60; below 0: unlimited. animeme_speech only
   /// "": neutral. NAME or NAME:INTENSITY, ended by 0: "joy", "anger:0.5", "thinking" ... (the names
   /// of `animeme speak --mood`). NOT_FOUND: no such mood; UNSUPPORTED: a model that has neither
   /// FAPs nor ARKit's shapes. animeme_speak() only
   char mood[32];
+  /// "": "camera". Where the eyes look, ended by 0: "camera", "away", "YAW,PITCH" in degrees or
+  /// "X,Y,Z" in metres, as `animeme speak --look`. SYNTAX, OUT_OF_RANGE. animeme_speak() only
+  char look[32];
+  /// "": none. Parts without idle motion, ended by 0: "gaze,head,brows,blinks". NOT_FOUND: no such
+  /// part. animeme_speak() only
+  char still[32];
 } animeme_speak_options;
 
 /// Sets the defaults.

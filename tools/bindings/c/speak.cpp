@@ -1,7 +1,6 @@
 // Scripts to frames, at once or as they are made.
 #include <algorithm>
 #include <deque>
-#include <iterator>
 
 #include "dam/model/builtin.h"
 #include "dam/model/model.h"
@@ -49,10 +48,26 @@ dam::SynthesisOptions synthesis_options(const animeme_speak_options& from) {
   return options;
 }
 
+template <std::size_t kSize>
+std::string_view text_of(const char (&field)[kSize]) {
+  return {field, std::size_t(std::find(field, field + kSize, '\0') - field)};
+}
+
 Result<dam::Mood> mood_of(const animeme_speak_options& options) {
-  const auto* end = std::find(std::begin(options.mood), std::end(options.mood), '\0');
-  if (end == options.mood) return dam::Mood{};
-  return dam::read_mood({options.mood, std::size_t(end - options.mood)});
+  const std::string_view mood = text_of(options.mood);
+  return mood.empty() ? dam::Mood{} : dam::read_mood(mood);
+}
+
+Result<dam::IdleMotionOptions> idle_options(const animeme_speak_options& from) {
+  dam::IdleMotionOptions options{from.idle_motion, from.seed};
+  const auto still = dam::parse_still(text_of(from.still));
+  if (!still) return still.error();
+  options.still = *still;
+  if (text_of(from.look).empty()) return options;
+  const auto look = dam::parse_look(text_of(from.look));
+  if (!look) return look.error();
+  options.look = *look;
+  return options;
 }
 
 animeme_status speak_clip(const dam::Model& model, std::string_view text,
@@ -62,8 +77,10 @@ animeme_status speak_clip(const dam::Model& model, std::string_view text,
   if (!script) return fail(error, script.error());
   auto signal = dam::synthesise(model, *script, synthesis_options(options));
   if (!signal) return fail(error, signal.error());
-  if (options.idle_motion >= 0) {
-    const auto added = dam::add_idle_motion(*signal, *script, {options.idle_motion, options.seed});
+  const auto idle = idle_options(options);
+  if (!idle) return fail(error, idle.error());
+  if (!(options.idle_motion <= 0)) {
+    const auto added = dam::add_idle_motion(*signal, *script, *idle);
     // Whose rig is unknown moves by its own channels alone.
     if (!added && added.error().code != Code::unsupported) return fail(error, added.error());
   }

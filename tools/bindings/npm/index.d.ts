@@ -140,12 +140,16 @@ export interface SpeakOptions {
   articulation?: number;
   /** Seconds after the script: 0..60 (0). */
   tail?: number;
-  /** Brows and head: 0..2 (1); below 0: no blinks either. Not of begin(). */
+  /** Liveliness of gaze, blinks, brows and head: 0..2 (1); 0: none. Not of begin(). */
   idleMotion?: number;
   /** Seed of the idle motion (1). */
   seed?: number | bigint;
   /** "joy", "anger:0.5", "thinking" ... ("neutral"). Not of begin(). */
   mood?: string;
+  /** Where the eyes look: "camera", "away", "YAW,PITCH" in degrees, "X,Y,Z" in metres ("camera"). Not of begin(). */
+  look?: string;
+  /** Parts without idle motion: "gaze,head,brows,blinks" (""). Not of begin(). */
+  still?: string;
   /** For begin(): seconds; below 0: unlimited (-1). */
   lookAhead?: number;
 }

@@ -11,7 +11,7 @@ using namespace animeme;
 
 #define LIES_AT(type, member, place) static_assert(offsetof(type, member) == place)
 static_assert(sizeof(animeme_frame) == 432 && sizeof(animeme_body) == 1496);
-static_assert(sizeof(animeme_error) == 512 && sizeof(animeme_speak_options) == 72);
+static_assert(sizeof(animeme_error) == 512 && sizeof(animeme_speak_options) == 168);
 LIES_AT(animeme_error, line, 8);
 LIES_AT(animeme_error, column, 16);
 LIES_AT(animeme_error, bit, 24);

@@ -7,6 +7,7 @@
 #include "dam/speaking/stream.h"
 #include "tools/bindings/python/python_internal.h"
 #include "tools/speech/talking/spoken.h"
+#include "tools/speech/voice/pitch.h"
 
 namespace animeme::python {
 
@@ -22,7 +23,7 @@ struct Speech {
 struct Motion {
   dam::SynthesisOptions synthesis;
   std::optional<bool> idle_motion;
-  std::uint64_t seed = 1;
+  dam::IdleMotionOptions idle;
   dam::Mood mood;
 };
 
@@ -54,7 +55,9 @@ Result<void> move_face(const dam::Model& model, Motion motion, Speech& speech) {
   if (!signal) return signal.error();
   speech.signal = std::move(*signal);
   if (motion.idle_motion.value_or(true)) {
-    const auto added = dam::add_idle_motion(speech.signal, speech.spoken.script, {1, motion.seed});
+    const dam::Prosody prosody = audio ? voice::measure_prosody(*audio) : dam::Prosody{};
+    motion.idle.prosody = &prosody;
+    const auto added = dam::add_idle_motion(speech.signal, speech.spoken.script, motion.idle);
     // Without being asked: models of other rigs do without.
     if (!added && motion.idle_motion) return added.error();
   }
@@ -69,7 +72,9 @@ std::unique_ptr<Speech> speak(const Model& model, const py::object& said, const 
                               const py::object& rate, double style, double sharpness,
                               std::optional<double> articulation, bool closure,
                               std::optional<bool> idle_motion, std::uint64_t seed, int speed,
-                              int pitch, const std::string& tts, const std::string& mood) {
+                              int pitch, const std::string& tts, const std::string& mood,
+                              double liveliness, const std::string& still,
+                              const std::string& look) {
   speech::SpokenOptions source;
   std::optional<dam::Script> script;
   if (py::isinstance<py::str>(said)) {
@@ -94,14 +99,15 @@ std::unique_ptr<Speech> speak(const Model& model, const py::object& said, const 
   source.words_per_minute = speed;
   source.pitch = pitch;
   source.tts = tts;
-  Motion motion{{.rate = rate_of(rate),
-                 .closure = closure,
-                 .style = style,
-                 .sharpness = sharpness,
-                 .articulation = articulation},
-                idle_motion,
-                seed,
-                value_of(dam::read_mood(mood))};
+  Motion motion{
+      {.rate = rate_of(rate),
+       .closure = closure,
+       .style = style,
+       .sharpness = sharpness,
+       .articulation = articulation},
+      idle_motion,
+      {liveliness, seed, value_of(dam::parse_still(still)), value_of(dam::parse_look(look))},
+      value_of(dam::read_mood(mood))};
   WarningLog heard;
   auto speech = unlocked([&]() -> Result<Speech> {
     auto made = spoken_of(source, script ? &*script : nullptr, heard);
@@ -238,7 +244,8 @@ path, preset, quant, max_rms, max_bits_per_second, intra_seconds: as for Clip.sa
             py::arg("sharpness") = 1.0, py::arg("articulation") = py::none(),
             py::arg("closure") = true, py::arg("idle_motion") = py::none(), py::arg("seed") = 1,
             py::arg("speed") = 175, py::arg("pitch") = 50, py::arg("tts") = "",
-            py::arg("mood") = "neutral",
+            py::arg("mood") = "neutral", py::arg("liveliness") = 1.0, py::arg("still") = "",
+            py::arg("look") = "camera",
             R"(Speaks: returns a Speech.
 
 said: a text, plain or SSML, for a synthetic voice; or phones, tuples (start, end, label[, word]):
@@ -251,8 +258,10 @@ style: intensity, 0 keeps the mouth at rest, 1 is as learned, 0..1.5.
 sharpness: quickness, 0 is the mean of sentences, 1 more as people, 0..3.
 articulation: how clearly vowels show, 0 is as learned, 0..2; None: 1 for the built-in model, 0 for others.
 closure: P, B and M close the lips, F and V reach the teeth.
-idle_motion: blinks, brows and head; None: where the controls of the model are known.
+idle_motion: gaze, blinks, brows and head; None: where the controls of the model are known.
 seed: of the idle motion: another seed, other times of blinks.
+liveliness, still, look: its amount (0..2); parts without it ("gaze,head,brows,blinks"); where the
+    eyes look: "camera", "away", "YAW,PITCH" in degrees, "X,Y,Z" in metres.
 speed, pitch: words a minute (80..450) and pitch (0..100) of the synthetic voice.
 tts: command of a voice of yours, that writes sound to {wav}.
 mood: "joy", "anger:0.5", "thinking" ...; SSML, emoji and exclamation marks of the text change it.

@@ -13,7 +13,7 @@ constexpr double kLinger = 1;  // seconds that a head runs on without viewers
 
 speech::SpeakerOptions speaker_options(const HeadSettings& settings, int voice_rate) {
   speech::SpeakerOptions options;
-  options.face = {settings.motion, settings.idle_motion, settings.seed, settings.mood};
+  options.face = {settings.motion, settings.idle_motion, settings.idle, settings.mood};
   options.face.synthesis.tongue &= settings.quant > 0;  // else FAP 47 does not fit
   options.fap_quant = settings.quant;
   options.intra_seconds = settings.intra_seconds;

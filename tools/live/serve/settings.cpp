@@ -57,6 +57,15 @@ class Members {
     value = found->get<std::string>();
     return true;
   }
+  /// A text that `reader` makes a value of.
+  template <class Value>
+  void read(const char* name, Result<Value> (*reader)(std::string_view), Value& value) {
+    std::string written;
+    if (!text(name, written)) return;
+    const Result<Value> made = reader(written);
+    if (!made) return fault("\"" + std::string(name) + "\": " + made.error().message);
+    value = *made;
+  }
   void fault(std::string sentence) {
     if (fault_.empty()) fault_ = std::move(sentence);
   }
@@ -125,16 +134,11 @@ Result<HeadSettings> read_settings(const Json& json, HeadSettings settings) {
   if (articulation >= 0) settings.motion.articulation = articulation;
   members.flag("idle_motion", settings.idle_motion);
   members.flag("tongue", settings.motion.tongue);
-  std::string mood;
-  if (members.text("mood", mood)) {
-    const Result<dam::Mood> read = dam::read_mood(mood);
-    if (read) {
-      settings.mood = *read;
-    } else {
-      members.fault("\"mood\": " + read.error().message);
-    }
-  }
-  members.number("seed", 0, 1e9, settings.seed);
+  members.read("mood", dam::read_mood, settings.mood);
+  members.number("seed", 0, 1e9, settings.idle.seed);
+  members.number("liveliness", 0, dam::kMostLiveliness, settings.idle.liveliness);
+  members.read("still", dam::parse_still, settings.idle.still);
+  members.read("look", dam::parse_look, settings.idle.look);
   members.number("intra_seconds", 0.04, 60, settings.intra_seconds);
   members.number("quant", 0, 31, settings.quant);
   members.flag("sound", settings.sound);
@@ -162,7 +166,10 @@ Json settings_json(const HeadSettings& settings) {
           {"idle_motion", settings.idle_motion},
           {"tongue", settings.motion.tongue},
           {"mood", dam::mood_text(settings.mood)},
-          {"seed", settings.seed},
+          {"seed", settings.idle.seed},
+          {"liveliness", settings.idle.liveliness},
+          {"still", dam::format_still(settings.idle.still)},
+          {"look", dam::format_look(settings.idle.look)},
           {"intra_seconds", settings.intra_seconds},
           {"quant", settings.quant},
           {"sound", settings.sound},

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "dam/script/mood.h"
+#include "dam/speaking/idle_motion.h"
 #include "dam/speaking/synthesise.h"
 #include "fap/result.h"
 #include "tools/formats/common/json.h"
@@ -23,13 +24,15 @@ struct HeadSettings {
   std::string model;             ///< "model": a name known to the server; empty: built-in
   voice::VoiceOptions voice;     ///< "lang", "speed" (words a minute), "pitch"
   dam::SynthesisOptions motion;  ///< "rate", "style", "sharpness", "articulate", "tongue"
-  bool idle_motion = true;       ///< "idle_motion": blinks and small motion of brows and head
-  dam::Mood mood;                ///< "mood": a name of dam::read_mood(), also "joy:0.6"
-  std::uint64_t seed = 1;        ///< "seed" of idle motion, 0..1e9
-  double intra_seconds = 1;      ///< "intra_seconds": interval of intra planes
-  int quant = 1;                 ///< "quant", 0..31
-  bool sound = true;             ///< "sound"
-  media::AudioSettings audio;    ///< "audio_codec", "audio_bitrate", "audio_effort" (Opus)
+  bool idle_motion = true;       ///< "idle_motion": gaze, blinks, brows and head
+  /// Of the idle motion: "seed" (0..1e9), "liveliness" (0..2), "still" ("gaze,head"), "look"
+  /// ("camera", "20,-5")
+  dam::IdleMotionOptions idle;
+  dam::Mood mood;              ///< "mood": a name of dam::read_mood(), also "joy:0.6"
+  double intra_seconds = 1;    ///< "intra_seconds": interval of intra planes
+  int quant = 1;               ///< "quant", 0..31
+  bool sound = true;           ///< "sound"
+  media::AudioSettings audio;  ///< "audio_codec", "audio_bitrate", "audio_effort" (Opus)
 
   HeadSettings();  ///< Opus with an effort of 5 at 48000 bits a second, the articulation of the
                    ///< model, a tongue

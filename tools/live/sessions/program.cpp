@@ -10,6 +10,7 @@
 #include "dam/speaking/idle_motion.h"
 #include "dam/speaking/moods.h"
 #include "tools/speech/talking/pieces.h"
+#include "tools/speech/voice/pitch.h"
 
 namespace animeme::live {
 
@@ -59,7 +60,13 @@ Result<Clip> spoken_clip(const ProgramOptions& options, fap::Rate rate, const to
   Result<dam::Signal> signal = speech::move_face(*model, *spoken, settings);
   if (!signal) return signal.error();
   if (options.idle_motion) {
-    auto added = dam::add_idle_motion(*signal, spoken->script, {1, options.seed});
+    const dam::Prosody prosody =
+        spoken->audio ? voice::measure_prosody(*spoken->audio) : dam::Prosody{};
+    dam::IdleMotionOptions idle = options.idle;
+    idle.prosody = &prosody;
+    // Without quantisation, angles end at one degree.
+    if (options.coding.quant == 0) idle.still.gaze = idle.still.head = true;
+    auto added = dam::add_idle_motion(*signal, spoken->script, idle);
     if (!added) return added.error();
   }
   auto moody = dam::add_moods(*signal, spoken->script, dam::MoodTrack(options.mood, spoken->moods));
@@ -94,7 +101,7 @@ Result<void> open_speaker(const ProgramOptions& options, fap::Rate rate, Program
   program.lines = std::move(*lines);
 
   speech::SpeakerOptions settings;
-  settings.face = {synthesis_of(options, rate), options.idle_motion, options.seed, options.mood};
+  settings.face = {synthesis_of(options, rate), options.idle_motion, options.idle, options.mood};
   settings.fap_quant = options.coding.quant;
   settings.intra_seconds = options.coding.intra_seconds;
   settings.voice_rate = program.lines->sample_rate();

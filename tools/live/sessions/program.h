@@ -9,6 +9,7 @@
 #include <string>
 
 #include "dam/model/model.h"
+#include "dam/speaking/idle_motion.h"
 #include "fap/rate.h"
 #include "tools/formats/media/live/presentation.h"
 #include "tools/live/sessions/clip.h"
@@ -31,8 +32,8 @@ struct ProgramOptions {
   Coding coding;                                    ///< of face and sound
   std::string model;                                ///< argument of speech::read_model()
   dam::SynthesisOptions motion;                     ///< its rate, frames and tail are not used
-  bool idle_motion = false;                         ///< blinks and small motion of brows and head
-  std::uint64_t seed = 1;                           ///< of the idle motion
+  bool idle_motion = true;                          ///< gaze, blinks, brows and head
+  dam::IdleMotionOptions idle;                      ///< of the idle motion; without `prosody`
   dam::Mood mood;                                   ///< of the face
   bool loop = false;                                ///< repeat clips
   double duration = std::numeric_limits<double>::infinity();  ///< seconds

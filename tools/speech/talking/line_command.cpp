@@ -13,9 +13,10 @@ using tools::Json;
 using Do = LineCommand::Do;
 using When = LineCommand::When;
 
-constexpr std::pair<std::string_view, Do> kDos[] = {{"say", Do::say},   {"stop", Do::stop},
-                                                    {"drop", Do::drop}, {"mark", Do::mark},
-                                                    {"end", Do::end},   {"mood", Do::mood}};
+constexpr std::pair<std::string_view, Do> kDos[] = {
+    {"say", Do::say},     {"stop", Do::stop}, {"drop", Do::drop}, {"mark", Do::mark},
+    {"end", Do::end},     {"mood", Do::mood}, {"look", Do::look}, {"listen", Do::listen},
+    {"think", Do::think}, {"idle", Do::idle}};
 constexpr std::pair<std::string_view, When> kWhens[] = {
     {"now", When::now}, {"next", When::next}, {"last", When::last}};
 
@@ -72,6 +73,20 @@ Result<std::optional<dam::Mood>> read_line_mood(const Json& object) {
   return std::optional(std::move(*mood));
 }
 
+// A text, or numbers: [20, -5].
+Result<dam::Look> read_target(const Json& object) {
+  const Json* found = object.find("target");
+  if (found == nullptr || !(found->is_string() || found->is_array())) {
+    return make_error(Code::invalid_argument,
+                      "there is nothing to look at; put camera, away, YAW,PITCH or X,Y,Z into "
+                      "\"target\"");
+  }
+  if (found->is_string()) return dam::parse_look(found->get<std::string>());
+  std::string text;
+  for (const Json& number : *found) text += (text.empty() ? "" : ",") + number.dump();
+  return dam::parse_look(text);
+}
+
 LineCommand said(std::string line) {
   LineCommand command;
   command.text = line;
@@ -101,6 +116,11 @@ Result<LineCommand> command_of(const Json& object, std::string line, bool json) 
     auto mood = read_line_mood(object);
     if (!mood) return mood.error();
     command.mood = std::move(*mood);
+  }
+  if (command.what == Do::look) {
+    Result<dam::Look> target = read_target(object);
+    if (!target) return target.error();
+    command.target = *target;
   }
   if (command.what == Do::mood && !command.mood) {
     return make_error(Code::invalid_argument,

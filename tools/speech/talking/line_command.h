@@ -6,6 +6,8 @@
 ///     {"do": "say", "text": "Yes?", "when": "now", "id": "7"} stop, then say this
 ///     {"do": "mark", "id": "half"}                            report when this is reached
 ///     {"do": "mood", "mood": "joy:0.6"}                       the mood from now on
+///     {"do": "look", "target": "20,-5"}                       where the eyes look (dam/behaviour)
+///     {"do": "listen"}, "think", "idle"                       what the face does between lines
 ///     {"do": "end"}                                           end when everything is spoken
 ///
 /// Lines to say may have a "mood" of their own: "joy", "joy:0.6" or {"name": "joy", "intensity":
@@ -17,6 +19,7 @@
 #include <string>
 #include <string_view>
 
+#include "dam/behaviour/behaviour.h"
 #include "dam/script/mood.h"
 #include "fap/result.h"
 
@@ -25,7 +28,7 @@ namespace animeme::speech {
 /// One line of input.
 struct LineCommand {
   /// Kind of the line.
-  enum class Do : std::uint8_t { say, stop, drop, mark, end, mood };
+  enum class Do : std::uint8_t { say, stop, drop, mark, end, mood, look, listen, think, idle };
   /// Position in the queue.
   enum class When : std::uint8_t {
     now,   ///< replaces current speech and the queue
@@ -39,6 +42,7 @@ struct LineCommand {
   std::string payload;     ///< say: input of LineMaker::make
   /// say: of the line, nullopt: that of the head; mood: given
   std::optional<dam::Mood> mood;
+  dam::Look target;  ///< look: the target
 };
 
 /// Maximum size of a command among lines of text, bytes.
@@ -49,7 +53,8 @@ inline constexpr std::size_t kMostCommand = std::size_t(1) << 20;
 /// piece with "do": "say" has a position in the queue. If lines are text, one that begins with {
 /// and is not a command remains text, unless it is broken JSON with a "do" in it. Errors: syntax
 /// (broken JSON, a member of a wrong type), not_found (unknown "do", "when" or mood),
-/// invalid_argument (nothing to say, an intensity out of range).
+/// invalid_argument (nothing to say, no target, an intensity out of range), those of
+/// dam::parse_look().
 Result<LineCommand> read_line(std::string line, bool json);
 
 }  // namespace animeme::speech

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "tools/speech/talking/line_cutter_internal.h"
+#include "tools/speech/voice/pitch.h"
 
 namespace animeme::speech {
 
@@ -24,6 +25,27 @@ std::string beginning(const std::string& text) {
 
 std::string name_of(std::uint64_t line, const std::string& text) {
   return "line " + std::to_string(line) + ", \"" + beginning(text) + "\"";
+}
+
+LineNews behaviour_news(const LineCommand& command, double at) {
+  LineNews news;
+  news.at = at;
+  news.what = LineNews::What::activity;
+  switch (command.what) {
+    case LineCommand::Do::look:
+      news.what = LineNews::What::look;
+      news.target = command.target;
+      break;
+    case LineCommand::Do::listen:
+      news.activity = dam::Activity::listening;
+      break;
+    case LineCommand::Do::think:
+      news.activity = dam::Activity::thinking;
+      break;
+    default:
+      news.activity = dam::Activity::idle;
+  }
+  return news;
 }
 
 }  // namespace
@@ -59,6 +81,12 @@ Result<void> LineQueue::push(std::string line, double arrived) {
     }
     case LineCommand::Do::end:
       closed_ = true;
+      break;
+    case LineCommand::Do::look:
+    case LineCommand::Do::listen:
+    case LineCommand::Do::think:
+    case LineCommand::Do::idle:
+      news_.push_back(behaviour_news(*command, arrived));
       break;
     case LineCommand::Do::mood: {
       LineNews news;
@@ -184,6 +212,8 @@ bool LineQueue::wanted(std::uint64_t line) {
 }
 
 void LineQueue::made(std::uint64_t line, Result<SpokenLine> speech, double spoken) {
+  // By the thread of the voice: the clock of the head does not wait for it.
+  if (speech) speech->prosody = voice::measure_prosody(speech->speech.audio);
   const std::lock_guard lock(mutex_);
   const auto entry = find(line);
   if (entry == entries_.end()) return;

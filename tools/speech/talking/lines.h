@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "dam/behaviour/behaviour.h"
 #include "fap/result.h"
 #include "tools/formats/media/live/pacer.h"
 #include "tools/speech/voice/voice.h"
@@ -27,6 +28,7 @@ namespace animeme::speech {
 struct SpokenLine {
   std::string text;      ///< as it was typed
   voice::Speech speech;  ///< sound and phones
+  dam::Prosody prosody;  ///< of the sound; empty: not known
   double arrived = 0;    ///< when its last character was read
   double spoken = 0;     ///< when synthesis ended
   /// Its sound directly follows that of the previous line if it arrives in time, else it starts 0.1
@@ -48,15 +50,19 @@ struct LineNews {
     stopped,    ///< end current speech and all lines before number `line`
     dropped,    ///< drop lines before number `line` that were returned but have not begun
     mood,       ///< the head has another mood: `mood`
+    look,       ///< the eyes look at `target`
+    activity,   ///< what the face does between lines: `activity`
   };
-  What what = What::queued;  ///< kind
-  std::uint64_t line = 0;    ///< SpokenLine::line
-  std::string id;            ///< SpokenLine::id
-  std::string text;          ///< the text
-  std::string why;           ///< a few words
-  bool mark = false;         ///< it is a mark
-  dam::Mood mood;            ///< a mood
-  double at = 0;             ///< instant on the clock of the lines
+  What what = What::queued;                      ///< kind
+  std::uint64_t line = 0;                        ///< SpokenLine::line
+  std::string id;                                ///< SpokenLine::id
+  std::string text;                              ///< the text
+  std::string why;                               ///< a few words
+  bool mark = false;                             ///< it is a mark
+  dam::Mood mood;                                ///< a mood
+  dam::Look target;                              ///< of the eyes
+  dam::Activity activity = dam::Activity::idle;  ///< between lines
+  double at = 0;                                 ///< instant on the clock of the lines
 };
 
 /// Returns whether the speech of a line is still needed.

@@ -48,7 +48,10 @@ LiveSpeaker::~LiveSpeaker() = default;
 Result<std::unique_ptr<LiveSpeaker>> LiveSpeaker::open(const dam::Model& model, LineSource& lines,
                                                        media::Clock& clock,
                                                        const SpeakerOptions& options) {
-  Result<TalkingFace> face = TalkingFace::open(model, options.face);
+  FaceOptions moving = options.face;
+  // Without quantisation, angles end at one degree.
+  if (options.fap_quant == 0) moving.idle.still.gaze = moving.idle.still.head = true;
+  Result<TalkingFace> face = TalkingFace::open(model, moving);
   if (!face) return face.error();
   std::optional<LiveSound> sound;
   if (options.audio) {

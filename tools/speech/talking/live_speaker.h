@@ -32,7 +32,7 @@ namespace animeme::speech {
 /// All settings of LiveSpeaker.
 struct SpeakerOptions {
   FaceOptions face;          ///< motion of the face
-  int fap_quant = 1;         ///< 0..31
+  int fap_quant = 1;         ///< 0..31; 0: gaze and head stay still, as angles end at one degree
   double intra_seconds = 1;  ///< seconds between intra planes
   int voice_rate = 22050;    ///< Hz, of the lines' sound; other rates are converted
   /// Audio encoder settings; nullopt: face only.

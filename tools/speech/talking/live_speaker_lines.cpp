@@ -65,6 +65,12 @@ void LiveSpeaker::Impl::follow(const LineNews& news, double time) {
       event.why = news.why;
       if (news.mark) event.line = 0;
       break;
+    case LineNews::What::look:
+      face.look(news.target);
+      return;
+    case LineNews::What::activity:
+      face.set_activity(news.activity);
+      return;
     case LineNews::What::mood:
       face.set_mood(news.mood);
       return;
@@ -172,11 +178,11 @@ Result<void> LiveSpeaker::Impl::begin(SpokenLine& line, LineTrace& trace) {
     // Its face is made with that of the piece before, so that the mouth goes from one to the other
     // as within a sentence.
     start = place_after_the_last();
-    shown =
-        face.join(script, std::max(double(start) / options.voice_rate - frame_due(), 0.0), moods);
+    const double wait = std::max(double(start) / options.voice_rate - frame_due(), 0.0);
+    shown = face.join(script, wait, moods, &line.prosody);
   } else {
     start = std::llround(frame_due() * options.voice_rate);
-    shown = face.say(script, moods);
+    shown = face.say(script, moods, &line.prosody);
   }
   if (!shown) return shown.error();
   const LineTraces::Signs signs{shown->first_moved * frame_ticks, lay(start, line)};

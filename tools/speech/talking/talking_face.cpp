@@ -7,7 +7,7 @@
 
 #include "dam/maths/raised_cosine.h"
 #include "dam/signal/fap_signal.h"
-#include "dam/speaking/idle_motion.h"
+#include "fap/tables.h"
 
 namespace animeme::speech {
 
@@ -26,12 +26,10 @@ dam::Script silence() {
   return script;
 }
 
-/// Channels first..last of a signal, whose row `at` follows or replaces `shown`: the difference
-/// fades.
-void lead_over(const std::vector<double>& shown, std::size_t first, std::size_t last,
-               dam::Signal& signal, std::size_t at) {
-  if (shown.size() < last || at >= signal.frames()) return;
-  for (std::size_t c = first; c < last; ++c) {
+/// A signal whose row `at` follows or replaces `shown`: the difference fades.
+void lead_over(const std::vector<double>& shown, dam::Signal& signal, std::size_t at) {
+  if (shown.size() < signal.names.size() || at >= signal.frames()) return;
+  for (std::size_t c = 0; c < signal.names.size(); ++c) {
     const double offset = shown[c] - signal.at(at, c);
     for (std::size_t i = at; i < signal.frames(); ++i) {
       const double share = dam::raised_bell(signal.rate.seconds(double(i - at + 1)) / kFade);
@@ -118,6 +116,46 @@ double end_of_words(const dam::Script& script) {
   return end;
 }
 
+// The prosody of a line that begins later.
+dam::Prosody later(const dam::Prosody& prosody, double seconds) {
+  dam::Prosody all;
+  all.step = prosody.step;
+  const auto before = std::size_t(std::max(0.0, seconds / prosody.step));
+  all.pitch.assign(before, 0.0f);
+  all.level.assign(before, 0.0f);
+  all.pitch.insert(all.pitch.end(), prosody.pitch.begin(), prosody.pitch.end());
+  all.level.insert(all.level.end(), prosody.level.begin(), prosody.level.end());
+  return all;
+}
+
+// The plan of `both` from `start` on: what comes before has been planned.
+dam::SpeechPlan plan_from(const dam::Script& both, double start, const dam::Prosody* prosody) {
+  std::optional<dam::Prosody> moved;
+  if (prosody != nullptr) moved = later(*prosody, start);
+  dam::SpeechPlan plan = dam::plan_speech(both, moved ? &*moved : nullptr);
+  constexpr double kTolerance = 1e-6;
+  std::erase_if(plan.accents, [&](const auto& one) { return one.start < start - kTolerance; });
+  std::erase_if(plan.phrases, [&](const auto& one) { return one.end <= start + kTolerance; });
+  if (!plan.phrases.empty() && plan.phrases.front().start < start) {
+    plan.phrases.front().start = start;
+    plan.phrases.front().begins = false;
+  }
+  return plan;
+}
+
+// A value that the codec can carry, as dam::to_sequence() makes them.
+int coded_value(double value, int fap) {
+  const fap::FapInfo& info = fap::info(fap);
+  const double most = double(info.default_i_range) * info.quant_step;
+  return int(std::lround(std::clamp(value, -most, most)));
+}
+
+// A face whose shapes move lids and brows a little anyway: they close from where they are.
+double combined(double own, double moved, int fap, double blink) {
+  const bool upper = fap == 19 || fap == 20, lower = fap == 21 || fap == 22;
+  return upper || lower ? moved + own * (1 - blink) : own + moved;
+}
+
 bool mouth_differs(const fap::Frame& a, const fap::Frame& b, const fap::Mask& mouth) {
   for (std::size_t fap = fap::kFirstLowLevel; fap < mouth.size(); ++fap) {
     if (mouth[fap] && a.value[fap] != b.value[fap]) return true;
@@ -141,9 +179,55 @@ Result<TalkingFace> TalkingFace::open(const dam::Model& model, const FaceOptions
   }
   if (auto ok = face.begin(silence(), false); !ok) return ok.error();
   face.mask_ = face.clip_.frames.front().mask;
+  if (options.idle_motion) {
+    const dam::BehaviourOptions wanted{options.synthesis.rate, options.idle.seed,
+                                       options.idle.liveliness, options.idle.still,
+                                       options.idle.look};
+    Result<dam::Behaviour> behaviour = dam::Behaviour::make(wanted);
+    if (!behaviour) return behaviour.error();
+    face.behaviour_ = std::move(*behaviour);
+    face.find_moving(face.mask_);
+    for (const int fap : face.moving_) face.mask_.set(std::size_t(fap));
+  }
   face.mood_ = options.mood;
   face.moods_ = dam::MoodBlend(options.mood);
   return face;
+}
+
+// What a character has learned stays; shapes of ARKit, which move lids and brows besides the mouth,
+// are added to.
+void TalkingFace::find_moving(const fap::Mask& known) {
+  const bool faps =
+      std::any_of(model_->controls.begin(), model_->controls.end(),
+                  [](const auto& control) { return dam::fap_of_channel(control.name) != 0; });
+  dam::BehaviourOptions wanted;
+  wanted.liveliness = options_.idle.liveliness;
+  wanted.still = options_.idle.still;
+  for (const int fap : dam::behaviour_faps(wanted)) {
+    const bool turns = (fap >= 23 && fap <= 26) || (fap >= 48 && fap <= 50);
+    if (known[std::size_t(fap)] && (faps || turns)) continue;
+    moving_.push_back(fap);
+  }
+}
+
+void TalkingFace::behave(fap::Frame& frame) {
+  if (!behaviour_) return;
+  const dam::FaceMoment moment = behaviour_->next();
+  for (const int fap : moving_) {
+    const auto n = std::size_t(fap);
+    double value = dam::behaviour_value(moment, fap);
+    if (frame.mask[n]) value = combined(frame.value[n], value, fap, moment.blink);
+    frame.mask.set(n);
+    frame.value[n] = coded_value(value, fap);
+  }
+}
+
+void TalkingFace::set_activity(dam::Activity activity) {
+  if (behaviour_) behaviour_->set_activity(activity);
+}
+
+void TalkingFace::look(const dam::Look& target) {
+  if (behaviour_) behaviour_->look(target);
 }
 
 Result<dam::Signal> TalkingFace::synthesise(const dam::Script& script) const {
@@ -160,7 +244,6 @@ Result<void> TalkingFace::show(dam::Signal signal, std::size_t at) {
   if (clip->frames.size() <= at) {
     return make_error(Code::invalid_argument, "the script has no duration");
   }
-  ++pieces_;
   signal_ = std::move(signal);
   clip_ = std::move(*clip);
   at_ = at;
@@ -170,19 +253,12 @@ Result<void> TalkingFace::show(dam::Signal signal, std::size_t at) {
 Result<void> TalkingFace::begin(const dam::Script& script, bool closing) {
   Result<dam::Signal> signal = synthesise(script);
   if (!signal) return signal.error();
-  const std::size_t mouth = signal->names.size();
-  if (options_.idle_motion) {
-    auto added = dam::add_idle_motion(*signal, script, {1, options_.seed + pieces_});
-    if (!added) return added.error();
-  }
   if (closing) {
     const double frames = close_mouth(shown_, speeds_, *signal) * signal->rate.frames_per_second();
     closed_ = number_ + std::int64_t(std::ceil(frames - 1e-9));
   } else {
-    lead_over(shown_, 0, mouth, *signal, 0);
+    lead_over(shown_, *signal, 0);
   }
-  // Lids, brows and head take their time.
-  lead_over(shown_, mouth, signal->names.size(), *signal, 0);
   if (auto ok = show(std::move(*signal), 0); !ok) return ok;
   script_ = script;
   mouth_ = dam::MoodMouth(script_);
@@ -240,10 +316,16 @@ void TalkingFace::show_mood(double in_piece, fap::Frame& frame) {
   if (!pose.neutral()) dam::add_mood(pose, shares_, frame);
 }
 
-Result<Line> TalkingFace::say(const dam::Script& script, const LineMoods& moods) {
+Result<Line> TalkingFace::say(const dam::Script& script, const LineMoods& moods,
+                              const dam::Prosody* prosody) {
   const fap::Frame before = at_ == 0 ? clip_.frames.front() : clip_.frames[at_ - 1];
+  const bool interrupts = speaking();
   if (auto ok = begin(script, false); !ok) return ok.error();
   plan_moods(script, 0, moods);
+  if (behaviour_) {
+    if (interrupts) behaviour_->hush();
+    behaviour_->speak(dam::plan_speech(script, prosody));
+  }
   speaking_ = true;
   return line_from(0, before);
 }
@@ -252,16 +334,19 @@ Result<void> TalkingFace::cut() {
   if (!speaking()) return {};
   if (auto ok = begin(silence(), true); !ok) return ok;
   moods_.change(now(), mood_);
+  if (behaviour_) behaviour_->hush();
   speaking_ = false;
   return {};
 }
 
-Result<Line> TalkingFace::join(const dam::Script& script, double start, const LineMoods& moods) {
+Result<Line> TalkingFace::join(const dam::Script& script, double start, const LineMoods& moods,
+                               const dam::Prosody* prosody) {
   if (!(start >= 0)) return make_error(Code::invalid_argument, "a line begins in the past");
   if (!speaking()) {
-    LineMoods later = moods;
-    for (dam::MoodSpan& span : later.spans) span.start += start, span.end += start;
-    return say(joint({}, 0, script, start), later);
+    LineMoods shifted = moods;
+    for (dam::MoodSpan& span : shifted.spans) span.start += start, span.end += start;
+    const dam::Prosody moved = prosody != nullptr ? later(*prosody, start) : dam::Prosody{};
+    return say(joint({}, 0, script, start), shifted, prosody != nullptr ? &moved : nullptr);
   }
   const fap::Rate rate = signal_.rate;
   const auto kept = std::size_t(std::ceil(kHistory * rate.frames_per_second()));
@@ -270,27 +355,15 @@ Result<Line> TalkingFace::join(const dam::Script& script, double start, const Li
   const dam::Script both = joint(script_, rate.seconds(double(cut)), script, begin);
   Result<dam::Signal> signal = synthesise(both);
   if (!signal) return signal.error();
-  const std::size_t at = at_ - cut, mouth = signal->names.size();
-  if (options_.idle_motion) {
-    // What lids, brows and head are about to do they do; the new line has its own.
-    dam::Signal alone = *signal;
-    auto added =
-        dam::add_idle_motion(alone, joint({}, 0, script, begin - rate.seconds(double(cut))),
-                             {1, options_.seed + pieces_});
-    if (!added) return added.error();
-    const std::size_t old = std::min(signal_.frames() - cut, alone.frames());
-    for (std::size_t i = 0; i < old; ++i) {
-      for (std::size_t c = mouth; c < alone.names.size(); ++c) {
-        alone.at(i, c) = signal_.at(cut + i, c);
-      }
-    }
-    lead_over(row(alone, old - 1), mouth, alone.names.size(), alone, old);
-    signal = std::move(alone);
-  }
+  const std::size_t at = at_ - cut;
   // From the frame that was to come: its motion goes on.
-  lead_over(row(signal_, at_), 0, mouth, *signal, at);
+  lead_over(row(signal_, at_), *signal, at);
   const fap::Frame before = at_ == 0 ? clip_.frames.front() : clip_.frames[at_ - 1];
   if (auto ok = show(std::move(*signal), at); !ok) return ok.error();
+  if (behaviour_) {
+    const double first_sound = begin - rate.seconds(double(cut));
+    behaviour_->speak(plan_from(both, first_sound, prosody), -rate.seconds(double(at)));
+  }
   script_ = both;
   mouth_ = dam::MoodMouth(script_);
   plan_moods(script, start, moods);
@@ -305,6 +378,7 @@ Result<fap::Frame> TalkingFace::next() {
   }
   shown_ = row(signal_, at_);
   fap::Frame frame = clip_.frames[at_];
+  behave(frame);
   show_mood(signal_.time(at_++), frame);
   frame.number = number_++;
   return frame;

@@ -9,7 +9,7 @@
 ///
 /// Speech begins with the next frame. Transitions between pieces (a line, idling, another line) are
 /// smooth: the difference at the joint is faded over 0.25 s. Speech can be cut off: the mouth
-/// closes in 0.1 s.
+/// closes in 0.1 s. Eyes, lids, brows and head go on across pieces (dam/behaviour).
 #pragma once
 
 #include <cstddef>
@@ -17,10 +17,12 @@
 #include <optional>
 #include <vector>
 
+#include "dam/behaviour/behaviour.h"
 #include "dam/model/model.h"
 #include "dam/script/mood.h"
 #include "dam/script/script.h"
 #include "dam/signal/signal.h"
+#include "dam/speaking/idle_motion.h"
 #include "dam/speaking/moods.h"
 #include "dam/speaking/synthesise.h"
 #include "fap/frame.h"
@@ -31,8 +33,8 @@ namespace animeme::speech {
 /// Options for speaking and idling.
 struct FaceOptions {
   dam::SynthesisOptions synthesis;  ///< `frames` and `tail` are not used
-  bool idle_motion = false;         ///< blinks, brows, head: see dam/speaking/idle_motion.h
-  std::uint64_t seed = 1;           ///< of the idle motion
+  bool idle_motion = false;         ///< gaze, blinks, brows, head: see dam/behaviour/behaviour.h
+  dam::IdleMotionOptions idle;      ///< of the idle motion; `prosody` is not used
   dam::Mood mood;                   ///< at the beginning
 };
 
@@ -55,7 +57,7 @@ struct Line {
 class TalkingFace {
  public:
   /// The model must outlive the face. Errors: not_found (the model has no FAPs), those of
-  /// dam::synthesise() and dam::add_idle_motion().
+  /// dam::synthesise() and dam::Behaviour::make().
   static Result<TalkingFace> open(const dam::Model& model, const FaceOptions& options);
 
   /// The FAPs of every frame so far. A mood that moves others makes them part of all that follow.
@@ -65,19 +67,26 @@ class TalkingFace {
   /// Whether a line has remaining frames.
   bool speaking() const { return speaking_ && at_ < clip_.frames.size(); }
   /// Begins a line with the next frame; the rest of the previous line is dropped.
-  /// Its moods end with it. Errors: those of dam::synthesise() and dam::add_idle_motion().
-  Result<Line> say(const dam::Script& script, const LineMoods& moods = {});
+  /// Its moods end with it. Head and brows follow `prosody`, that of its sound, if it is not null.
+  /// Errors: those of dam::synthesise().
+  Result<Line> say(const dam::Script& script, const LineMoods& moods = {},
+                   const dam::Prosody* prosody = nullptr);
   /// Extends the current line: `script` begins `start` seconds after the next frame (0 or more; not
   /// before the end of the current speech) and is coarticulated with the rest of that, which is
   /// recomputed. Without current speech it begins a new line. Errors: as say(); invalid_argument
   /// (`start` is negative or NaN).
-  Result<Line> join(const dam::Script& script, double start, const LineMoods& moods = {});
+  Result<Line> join(const dam::Script& script, double start, const LineMoods& moods = {},
+                    const dam::Prosody* prosody = nullptr);
   /// The mood from the next frame on, and between lines. Moods of a line that is spoken end.
   void set_mood(const dam::Mood& mood);
   /// Interrupts speech: the mouth begins to close evenly with the next frame and is at rest 0.1 s
   /// after the previous frame, or up to 0.16 s if it would otherwise move faster than in speech.
   /// Errors: as say().
   Result<void> cut();
+  /// What the face does while it does not speak; thinking ends with the next line.
+  void set_activity(dam::Activity activity);
+  /// Where it looks from the next frame on. With gaze that is still, only the head turns.
+  void look(const dam::Look& target);
   /// Whether the mouth is still closing, so that a line beginning now would start with an open
   /// mouth.
   bool closing() const { return number_ < closed_; }
@@ -90,6 +99,8 @@ class TalkingFace {
   Result<void> begin(const dam::Script& script, bool closing);
   Result<dam::Signal> synthesise(const dam::Script& script) const;
   Result<void> show(dam::Signal signal, std::size_t at);
+  void find_moving(const fap::Mask& known);
+  void behave(fap::Frame& frame);
   Line line_from(std::size_t first, const fap::Frame& before) const;
   double now() const { return signal_.rate.seconds(double(number_)); }
   void plan_moods(const dam::Script& script, double start, const LineMoods& moods);
@@ -105,13 +116,14 @@ class TalkingFace {
   std::vector<double> speeds_;  // of each channel, a second, in speech
   std::vector<double> shown_;   // what the last frame shows; empty: there was none
   std::int64_t number_ = 0;
-  std::uint64_t pieces_ = 0;
   bool speaking_ = false;
-  dam::Mood mood_;                 // between lines
-  dam::MoodBlend moods_;           // in seconds from frame 0
-  dam::MoodMouth mouth_;           // of script_
-  dam::MoodMouth::Shares shares_;  // as shown last
-  std::int64_t closed_ = 0;        // number of the frame after the first one at rest behind cut()
+  dam::Mood mood_;                           // between lines
+  dam::MoodBlend moods_;                     // in seconds from frame 0
+  dam::MoodMouth mouth_;                     // of script_
+  dam::MoodMouth::Shares shares_;            // as shown last
+  std::optional<dam::Behaviour> behaviour_;  // nothing: no idle motion
+  std::vector<int> moving_;                  // FAPs of it
+  std::int64_t closed_ = 0;  // number of the frame after the first one at rest behind cut()
 };
 
 }  // namespace animeme::speech

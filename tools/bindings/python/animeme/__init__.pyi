@@ -258,6 +258,9 @@ class Model:
         pitch: int = 50,
         tts: str = "",
         mood: str = "neutral",
+        liveliness: float = 1.0,
+        still: str = "",
+        look: str = "camera",
     ) -> Speech: ...
 
 class Speech:
