@@ -2,6 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
 #include <fstream>
 
 #include "tests/app/program/commands.h"
@@ -75,6 +79,31 @@ TEST_F(Voices, TextsAreNoOptions) {
               HasSubstr("it said: -5 degrees"));
   EXPECT_THAT(speak("sh -c 'echo \"$1\" >&2; exit 1' voice --text={text}", "-5 degrees").err,
               HasSubstr("it said: --text=-5 degrees"));
+}
+
+// The text and the sound of a user do not stay behind, however the program ends.
+TEST_F(Voices, TemporaryFilesGoWithTheProgram) {
+  namespace fs = std::filesystem;
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    const std::string folder = dir / ("tmp" + std::to_string(number));
+    fs::create_directory(folder);
+    // Of a process that was killed long ago, and of others.
+    for (const char* name : {"animeme-999999999-old", "animeme-1-running", "other"}) {
+      fs::create_directory(folder + "/" + name);
+      fs::last_write_time(folder + "/" + name,
+                          fs::file_time_type::clock::now() - std::chrono::hours(30));
+    }
+    const std::string line =
+        "TMPDIR='" + folder + "' timeout --preserve-status -s " + std::to_string(number) +
+        " 1.5 '" + std::string(test::kBinaryFolder) +
+        "/bin/animeme' speak --text bah --tts \"sh -c 'mkdir \\$(dirname \\$1)/sub; "
+        "echo x >\\$(dirname \\$1)/sub/y; sleep 20' voice {wav}\" -o '" +
+        (dir / "a.fap") + "' 2>/dev/null";
+    EXPECT_NE(std::system(line.c_str()), 0);
+    std::vector<std::string> left;
+    for (const auto& one : fs::directory_iterator(folder)) left.push_back(one.path().filename());
+    EXPECT_THAT(left, testing::UnorderedElementsAre("animeme-1-running", "other")) << number;
+  }
 }
 
 TEST_F(Voices, LeaveNothingWhereTheyFail) {

@@ -26,9 +26,11 @@ struct Slot {
 std::array<Slot, 64> slots;
 static_assert(std::atomic<SlotState>::is_always_lock_free);
 
+constexpr int kDeepest = 8;  // folders in folders
+
 // opendir() allocates, which a handler may not.
-void remove_folder(const char* path) {
-  const int folder = ::open(path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+void remove_folder(int parent, const char* path, int depth) {
+  const int folder = ::openat(parent, path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   if (folder < 0) return;
   alignas(dirent64) char block[4096];
   for (;;) {
@@ -36,12 +38,14 @@ void remove_folder(const char* path) {
     if (count <= 0) break;
     for (ssize_t at = 0; at < count;) {
       const auto* entry = reinterpret_cast<const dirent64*>(block + at);
-      ::unlinkat(folder, entry->d_name, 0);  // "." and ".." are folders, which this leaves alone
       at += entry->d_reclen;
+      const char* name = entry->d_name;
+      if (std::strcmp(name, ".") == 0 || std::strcmp(name, "..") == 0) continue;
+      if (::unlinkat(folder, name, 0) != 0 && depth > 1) remove_folder(folder, name, depth - 1);
     }
   }
   ::close(folder);
-  ::rmdir(path);
+  ::unlinkat(parent, path, AT_REMOVEDIR);
 }
 
 void clean_up_and_end(int signal_number) {
@@ -73,7 +77,7 @@ void forget_unfinished(std::size_t note) {
 void remove_unfinished() {
   for (Slot& slot : slots) {
     if (slot.state != SlotState::noted || slot.owner != ::getpid()) continue;
-    if (::unlink(slot.path.data()) != 0) remove_folder(slot.path.data());
+    if (::unlink(slot.path.data()) != 0) remove_folder(AT_FDCWD, slot.path.data(), kDeepest);
   }
 }
 

@@ -7,9 +7,8 @@
 
 namespace animeme::tools {
 
-/// Registers a temporary file, or a folder without subfolders; returns a number for
-/// forget_unfinished(). 0: too many entries (64), or the path is too long; then only its owner
-/// removes it.
+/// Registers a temporary file or folder; returns a number for forget_unfinished(). 0: too many
+/// entries (64), or the path is too long; then only its owner removes it.
 std::size_t note_unfinished(const std::string& path);
 void forget_unfinished(std::size_t note);  ///< unregisters it; ignores 0
 

@@ -2,6 +2,7 @@
 /// Temporary folders.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -10,13 +11,15 @@
 
 namespace animeme::tools {
 
-/// A folder that the destructor removes with its content.
+/// A folder that the destructor removes with its content. It may hold the text and the voice of
+/// users, so signals remove it, too (clean_up_on_signals() of unfinished.h).
 class ScratchFolder {
  public:
-  /// Creates a folder in the system's temporary folder (TMPDIR). Errors: io.
+  /// Creates a folder in the system's temporary folder (TMPDIR), and first removes those that this
+  /// user's processes left there more than a day ago, when they were killed. Errors: io.
   static Result<std::unique_ptr<ScratchFolder>> make();
   /// Takes ownership of an existing folder.
-  explicit ScratchFolder(std::filesystem::path path) : path_(std::move(path)) {}
+  explicit ScratchFolder(std::filesystem::path path);
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;
   ~ScratchFolder();
@@ -26,6 +29,7 @@ class ScratchFolder {
 
  private:
   std::filesystem::path path_;
+  std::size_t note_ = 0;  // of note_unfinished()
 };
 
 }  // namespace animeme::tools
