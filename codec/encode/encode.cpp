@@ -19,7 +19,8 @@ using internal::Role;
 using internal::Row;
 using internal::Run;
 
-constexpr double kLeastBudget = 1;       // bits: as few as can be
+constexpr double kLeastBudget = 1;  // bits: as few as can be
+constexpr std::size_t kRetriesWithDefaults = 10;
 constexpr std::size_t kMaxRetries = 40;  // plans tried to avoid hazards
 
 Result<void> check(const EncodeOptions& options) {
@@ -30,6 +31,9 @@ Result<void> check(const EncodeOptions& options) {
     return internal::invalid(
         "with kept ranges receivers can join at the beginning only, so an intra period has no "
         "effect");
+  }
+  if (options.kept_ranges && options.default_ranges) {
+    return internal::invalid("kept ranges and default ranges exclude each other");
   }
   if (options.max_rms >= 0 && options.max_bits_per_second >= 0 && options.still_below >= 0) {
     return {};
@@ -73,13 +77,16 @@ struct Written {
   std::size_t retries = 0;
   std::size_t hazards = 0;
   std::size_t limited = 0;
+  bool default_ranges = false;
 };
 
 // Plans, writes and checks; plans anew if the bits happen to hold hazards.
 Result<Written> write(const ClipData& clip, const Decision& wanted, const EncodeOptions& options) {
   Written out;
-  internal::PlanOptions plan{
-      internal::period_frames(options.intra_seconds, clip.rate.rate()), options.extra_intra, {}};
+  internal::PlanOptions plan{internal::period_frames(options.intra_seconds, clip.rate.rate()),
+                             options.extra_intra,
+                             {},
+                             options.default_ranges};
   const bool far = internal::reaches_too_far(clip, wanted);
   Decision reached;
   const Decision& decision = far ? reached : wanted;
@@ -90,12 +97,13 @@ Result<Written> write(const ClipData& clip, const Decision& wanted, const Encode
       reached = wanted;
       out.limited = internal::limit_levels(clip, begins, reached);
     }
-    Result<std::vector<Run>> runs = plan_runs(clip, decision, begins, plan.hazardous);
+    Result<std::vector<Run>> runs = plan_runs(clip, decision, begins, plan);
     if (!runs) return runs.error();
     Encoder encoder(options.stream);
     if (auto ok = writer.write(*runs, encoder); !ok) return ok.error();
     encoder.end();
     out.intra_planes = runs->size();
+    out.default_ranges = clip.has_face && !runs->front().face.send_range[kIntraMax];
     const std::vector<std::int64_t> hazards = encoder.hazard_bits();
     out.hazards = hazards.size();
     if (hazards.empty() || out.retries == kMaxRetries) {
@@ -105,6 +113,8 @@ Result<Written> write(const ClipData& clip, const Decision& wanted, const Encode
     for (const std::int64_t bit : hazards) plan.hazardous.push_back(writer.plane_at(bit));
     std::sort(plan.hazardous.begin(), plan.hazardous.end());
     ++out.retries;
+    // Values of intra planes have other bits with ranges of their own only.
+    if (out.retries >= kRetriesWithDefaults) plan.default_ranges = false;
   }
   if (options.verify) {
     if (auto ok = internal::verify(out.stream, clip, decision); !ok) return ok.error();
@@ -191,6 +201,7 @@ Result<Written> attempt(const ClipData& clip, const EncodeOptions& options, doub
   }
   if (!written) return written;
   report.kept_ranges = decision.first.has_value();
+  report.default_ranges = written->default_ranges;
   report.limited = written->limited;
   report.skipped = clip.planes() - report.planes;
   report.intra_planes = written->intra_planes;

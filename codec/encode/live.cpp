@@ -1,6 +1,9 @@
 #include "codec/encode/live.h"
 
 #include <algorithm>
+#include <cmath>
+#include <deque>
+#include <utility>
 
 #include "codec/decode/decoder.h"
 #include "codec/encode/clip_internal.h"
@@ -11,6 +14,7 @@ namespace animeme::fba {
 
 namespace {
 
+constexpr double kMostDelay = 60;  // seconds
 constexpr int kMaxDetours = 40;
 constexpr int kWarmUp = 40;  // planes: what was seen says enough only after a second or two
 
@@ -39,14 +43,27 @@ struct LiveEncoder::Impl : internal::LiveMemory {
   std::int64_t period = 0;        // likewise
   std::int64_t planes = 0;
 
+  std::int64_t delay = 0;                      // frames
+  std::deque<internal::WaitingFrame> waiting;  // for their units
+  bool ended = false;                          // no more of them will come
+
   explicit Impl(const LiveOptions& given)
       : options(given), encoder(StreamOptions{given.plane_start_codes, given.old_codes}) {
     rate = code_rate(options.rate);
     if (rate) period = internal::period_frames(options.intra_seconds, options.rate);
     if (options.ranges) motion.ranges = *options.ranges;
+    if (rate) delay = delay_frames();
+  }
+
+  std::int64_t delay_frames() const {
+    const double frames = options.delay_seconds * options.rate.frames_per_second();
+    return frames > 0 && frames < 1e9 ? std::llround(frames) : 0;
   }
 
   Result<void> check() const {
+    if (!(options.delay_seconds >= 0 && options.delay_seconds <= kMostDelay)) {
+      return internal::invalid("a delay must be 0 to 60 seconds");
+    }
     if (!rate)
       return internal::invalid("the format cannot express this frame rate; see code_rate()");
     const auto ok =
@@ -96,10 +113,14 @@ struct LiveEncoder::Impl : internal::LiveMemory {
     last_intra = true;
     internal::HeldFrame near = held;
     internal::limit(near, options);
+    const internal::Outlook outlook =
+        delay > 0 ? internal::look_ahead(near, skip, waiting, period, ended, options)
+                  : internal::Outlook();
     for (int detour = 0;; ++detour) {
       const bool young = planes < kWarmUp;
-      face = internal::settle_face(near, motion, options, young, detour);
-      if (held.has_body) body = internal::settle_body(near, motion, options, young, detour);
+      face = internal::settle_face(near, motion, options, outlook, young, detour);
+      if (held.has_body)
+        body = internal::settle_body(near, motion, options, outlook, young, detour);
       if (auto ok = write_plane(near, true, skip); !ok) return ok;
       if (!encoder.hazard() || detour == kMaxDetours) break;
       encoder.drop();
@@ -108,10 +129,27 @@ struct LiveEncoder::Impl : internal::LiveMemory {
     return {};
   }
 
-  Result<void> write(const fap::Frame& frame, std::vector<std::uint8_t>& unit, std::uint32_t skip,
-                     const BodyFrame* given_body) {
+  // Takes a frame, and writes the one whose time has come.
+  Result<void> take(const fap::Frame& frame, std::vector<std::uint8_t>& unit, std::uint32_t skip,
+                    const BodyFrame* given_body) {
     if (auto ok = check(); !ok) return ok;
     if (auto ok = check(frame); !ok) return ok;
+    if (delay == 0) return write(frame, unit, skip, given_body);
+    waiting.push_back({frame, skip, {}});
+    if (given_body != nullptr) waiting.back().body = *given_body;
+    if (std::int64_t(waiting.size()) > delay) return write_first(unit);
+    unit.clear();
+    return {};
+  }
+
+  Result<void> write_first(std::vector<std::uint8_t>& unit) {
+    const internal::WaitingFrame first = std::move(waiting.front());
+    waiting.pop_front();
+    return write(first.face, unit, first.skip, first.body ? &*first.body : nullptr);
+  }
+
+  Result<void> write(const fap::Frame& frame, std::vector<std::uint8_t>& unit, std::uint32_t skip,
+                     const BodyFrame* given_body) {
     const LiveMemory before = *this;
     held.take_in(frame, given_body, options);
     if (since_intra >= 0) motion.see(held, last, options);
@@ -160,16 +198,34 @@ LiveEncoder::~LiveEncoder() = default;
 Result<std::vector<std::uint8_t>> LiveEncoder::write(const fap::Frame& frame, std::uint32_t skip,
                                                      const BodyFrame* body) {
   std::vector<std::uint8_t> unit;
-  if (auto ok = impl_->write(frame, unit, skip, body); !ok) return ok.error();
+  if (auto ok = impl_->take(frame, unit, skip, body); !ok) return ok.error();
   return unit;
 }
 
 Result<void> LiveEncoder::write(const fap::Frame& frame, std::vector<std::uint8_t>& unit,
                                 std::uint32_t skip, const BodyFrame* body) {
-  return impl_->write(frame, unit, skip, body);
+  return impl_->take(frame, unit, skip, body);
 }
 
-std::vector<std::uint8_t> LiveEncoder::finish() { return impl_->encoder.finish(); }
+std::size_t LiveEncoder::held() const { return impl_->waiting.size(); }
+
+Result<void> LiveEncoder::write_held(std::vector<std::uint8_t>& unit) {
+  unit.clear();
+  impl_->ended = true;
+  return impl_->waiting.empty() ? Result<void>() : impl_->write_first(unit);
+}
+
+std::vector<std::uint8_t> LiveEncoder::finish() {
+  std::vector<std::uint8_t> all;
+  std::vector<std::uint8_t> unit;
+  while (held() > 0) {
+    if (write_held(unit)) all.insert(all.end(), unit.begin(), unit.end());
+  }
+  const std::vector<std::uint8_t> end = impl_->encoder.finish();
+  all.insert(all.end(), end.begin(), end.end());
+  return all;
+}
+
 const fap::Frame& LiveEncoder::reconstruction() const { return impl_->last.face; }
 bool LiveEncoder::intra() const { return impl_->last_intra; }
 

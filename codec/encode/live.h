@@ -51,10 +51,14 @@ struct LiveOptions {
   PlaneStartCodes plane_start_codes = PlaneStartCodes::all;
   bool old_codes = false;  ///< plane start codes of the 1999 edition
   bool verify = true;      ///< decode every unit again and compare
+  /// > 0: each frame is coded so many seconds (rounded to whole frames) after it was written. Intra
+  /// planes then know what follows and get the tightest ranges, as of encode() with live_options();
+  /// with a shorter delay than the distance of intra planes only as far as it reaches.
+  double delay_seconds = 0;
 };
 
-/// Encoder of one live stream. Movable, not copyable, not thread safe. No look-ahead: a unit
-/// depends only on the frames given so far. Memory does not grow with the stream.
+/// Encoder of one live stream. Movable, not copyable, not thread safe. A unit depends only on the
+/// frames given so far. Memory does not grow with the stream.
 class LiveEncoder {
  public:
   explicit LiveEncoder(const LiveOptions& options = {});  ///< checked with the first frame
@@ -86,7 +90,15 @@ class LiveEncoder {
   /// errors other than `internal` the vector is unchanged.
   Result<void> write(const fap::Frame& frame, std::vector<std::uint8_t>& unit,
                      std::uint32_t skip = 0, const BodyFrame* body = nullptr);
-  /// The rest of the last plane and the end code, to end the stream.
+  /// With LiveOptions::delay_seconds write() returns the unit of an earlier frame, and an empty one
+  /// until there is such a frame; errors other than invalid_argument are about that frame, too.
+  /// Here is how many frames wait for their units.
+  std::size_t held() const;
+  /// The unit of the first frame that waits, at the end of a stream; empty if none does. Errors as
+  /// write().
+  Result<void> write_held(std::vector<std::uint8_t>& unit);
+  /// The units of all frames that wait, except of those that cannot be coded, the rest of the last
+  /// plane and the end code, to end the stream.
   std::vector<std::uint8_t> finish();
 
   /// The values of receivers after the last unit: quantised, mask = what was coded.

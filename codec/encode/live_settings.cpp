@@ -111,8 +111,65 @@ void limit(HeldFrame& held, const LiveOptions& options) {
   }
 }
 
+Outlook look_ahead(const HeldFrame& held, std::uint32_t skip,
+                   const std::deque<WaitingFrame>& coming, std::int64_t period, bool last,
+                   const LiveOptions& options) {
+  Outlook outlook;
+  if (coming.empty() && !last) return outlook;
+  HeldFrame next = held;
+  // As receivers will have them.
+  std::array<std::int64_t, fap::kFapCount + 1> face{};
+  std::array<std::int64_t, kBapCount + 1> body{};
+  const auto follow = [](std::int64_t& value, std::int64_t wanted, std::int64_t step, int scale,
+                         std::uint8_t& up, std::uint8_t& down) {
+    const std::int64_t change = quantise(wanted - value, step);
+    value += change * step;
+    std::uint8_t& side = change < 0 ? down : up;
+    const int needed = range_number(std::abs(change), scale);
+    side = std::max(side, std::uint8_t(std::min(needed, kMaxRange)));
+    return needed <= kMaxRange;
+  };
+  // False: there is a change that no predictive plane can code.
+  const auto follow_all = [&](Outlook& seen) {
+    bool fits = true;
+    for (std::size_t fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
+      if (!held.face.mask[fap]) continue;
+      fits &= follow(face[fap], next.face.value[fap], face_step(fap, options),
+                     scale_at(false, options.fap_quant), seen.up[fap], seen.down[fap]);
+    }
+    for (std::size_t slot = 0; held.has_body && slot < kBapOrder.size(); ++slot) {
+      const std::size_t bap = kBapOrder[slot];
+      if (!held.body.mask[bap]) continue;
+      fits &= follow(body[bap], next.body.value[bap], body_step(slot, options),
+                     scale_at(true, options.bap_quant), seen.body_up[bap], seen.body_down[bap]);
+    }
+    return fits;
+  };
+  Outlook of_intra;  // whose ranges are its own
+  follow_all(of_intra);
+  std::int64_t frames = 1 + std::int64_t(skip);
+  outlook.complete = last;
+  for (const WaitingFrame& frame : coming) {
+    next.take_in(frame.face, frame.body ? &*frame.body : nullptr, options);
+    if ((period > 0 && frames >= period) || next.face.mask != held.face.mask ||
+        next.has_body != held.has_body || next.body.mask != held.body.mask) {
+      outlook.complete = true;  // there is the next intra plane
+      break;
+    }
+    Outlook with_frame = outlook;
+    if (!follow_all(with_frame)) {
+      outlook.complete = true;  // likewise
+      break;
+    }
+    outlook = with_frame;
+    frames += 1 + std::int64_t(frame.skip);
+  }
+  outlook.complete |= period > 0 && frames >= period;
+  return outlook;
+}
+
 FaceSettings settle_face(const HeldFrame& held, const Motion& motion, const LiveOptions& options,
-                         bool young, int detour) {
+                         const Outlook& outlook, bool young, int detour) {
   FaceSettings face;
   face.fap_quant = options.fap_quant;
   face.send_range = {true, true, true, true};
@@ -124,17 +181,24 @@ FaceSettings settle_face(const HeldFrame& held, const Motion& motion, const Live
     --turn;
     set_intra_range(face, fap, quantise(held.face.value[fap], face_step(fap, options)),
                     scale_at(false, options.fap_quant), wider(held, turn, detour));
-    std::uint8_t range = face_range(fap, motion, options, young);
+    std::uint8_t up = outlook.up[fap];
+    std::uint8_t down = outlook.down[fap];
+    if (!outlook.complete) {
+      const std::uint8_t range = face_range(fap, motion, options, young);
+      up = std::max(up, range);
+      down = std::max(down, range);
+    }
     // Zeros of the very last range may reach into the values behind it.
-    if (turn == 0 && detour > 0 && range == 0) range = 1;
-    face.range[kPredictiveMax][fap] = face.range[kPredictiveMin][fap] = range;
+    if (turn == 0 && detour > 0 && down == 0) down = 1;
+    face.range[kPredictiveMax][fap] = up;
+    face.range[kPredictiveMin][fap] = down;
   }
   guard_fap4(face);
   return face;
 }
 
 BodySettings settle_body(const HeldFrame& held, const Motion& motion, const LiveOptions& options,
-                         bool young, int detour) {
+                         const Outlook& outlook, bool young, int detour) {
   BodySettings body;
   body.bap_quant = options.bap_quant;
   body.send_range = {true, true, true, true};
@@ -147,9 +211,16 @@ BodySettings settle_body(const HeldFrame& held, const Motion& motion, const Live
     const int scale = scale_at(true, options.bap_quant);
     set_intra_range(body, bap, quantise(held.body.value[bap], body_step(slot, options)), scale,
                     wider(held, turn++, detour));
-    const std::uint8_t range =
-        young ? std::uint8_t(kMaxRange) : predictive_range(motion.body.largest(bap), scale);
-    body.range[kPredictiveMax][bap] = body.range[kPredictiveMin][bap] = range;
+    std::uint8_t up = outlook.body_up[bap];
+    std::uint8_t down = outlook.body_down[bap];
+    if (!outlook.complete) {
+      const std::uint8_t range =
+          young ? std::uint8_t(kMaxRange) : predictive_range(motion.body.largest(bap), scale);
+      up = std::max(up, range);
+      down = std::max(down, range);
+    }
+    body.range[kPredictiveMax][bap] = up;
+    body.range[kPredictiveMin][bap] = down;
   }
   return body;
 }

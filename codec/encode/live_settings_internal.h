@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <deque>
+#include <optional>
 
 #include "codec/encode/live.h"
 #include "codec/syntax/plane.h"
@@ -62,18 +64,41 @@ struct Motion {
   }
 };
 
+/// What comes behind an intra plane, as far as it is known.
+struct Outlook {
+  PredictiveRanges up{};    // range numbers that its differences need
+  PredictiveRanges down{};  // likewise, downwards
+  std::array<std::uint8_t, kBapCount + 1> body_up{};
+  std::array<std::uint8_t, kBapCount + 1> body_down{};
+  bool complete = false;  // it reaches to the next intra plane
+};
+
+/// A frame that waits.
+struct WaitingFrame {
+  fap::Frame face;
+  std::uint32_t skip = 0;
+  std::optional<BodyFrame> body;
+};
+
+/// Looks at the frames that follow the held one, which skips `skip`, up to the end of a period of
+/// so many frames (0: none). `last`: no more will come.
+Outlook look_ahead(const HeldFrame& held, std::uint32_t skip,
+                   const std::deque<WaitingFrame>& coming, std::int64_t period, bool last,
+                   const LiveOptions& options);
+
 /// Makes values beyond what an intra plane can hold the nearest that it can. Not without
 /// quantisation, where angles could not be followed at all.
 void limit(HeldFrame& held, const LiveOptions& options);
 
 /// What an intra plane of the held values settles, with the tightest intra ranges, and predictive
-/// ranges for the motion of late, or wider ones while `young`, when too little has been seen of it.
-/// A `detour` widens intra ranges, of one parameter after the other (from the last coded FAP
-/// backwards, then on over the BAPs): that gives other bits. The first widens one range, the second
-/// four, the third nine: what lies behind a hazard in its segment does not move it.
+/// ranges for the motion to come (`outlook`), if all of it is known, else of late, or wider ones
+/// while `young`, when too little has been seen of it. A `detour` widens intra ranges, of one
+/// parameter after the other (from the last coded FAP backwards, then on over the BAPs): that gives
+/// other bits. The first widens one range, the second four, the third nine: what lies behind a
+/// hazard in its segment does not move it.
 FaceSettings settle_face(const HeldFrame& held, const Motion& motion, const LiveOptions& options,
-                         bool young, int detour);
+                         const Outlook& outlook, bool young, int detour);
 BodySettings settle_body(const HeldFrame& held, const Motion& motion, const LiveOptions& options,
-                         bool young, int detour);
+                         const Outlook& outlook, bool young, int detour);
 
 }  // namespace animeme::fba::internal

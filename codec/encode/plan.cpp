@@ -14,12 +14,13 @@ namespace {
 class Planner {
  public:
   Planner(const ClipData& clip, const Decision& decision, const std::vector<std::size_t>& begins,
-          const std::vector<std::size_t>& hazardous)
+          const PlanOptions& options)
       : clip_(clip),
         decision_(decision),
         begins_(begins),
-        hazardous_(hazardous),
+        hazardous_(options.hazardous),
         coded_(coded_channels(decision)) {
+    default_ranges_ = options.default_ranges && fits_default_ranges();
     faps_ = std::size_t(std::count_if(coded_.begin(), coded_.end(),
                                       [this](std::size_t i) { return !channel(i).body; }));
   }
@@ -58,6 +59,9 @@ class Planner {
         run.face.send_range[kind] = run.body.send_range[kind] = false;
       }
     }
+    if (default_ranges_) {
+      for (const RangeKind kind : {kIntraMax, kIntraMin}) run.face.send_range[kind] = false;
+    }
     const std::size_t detours = detours_of(first, count);
     for (std::size_t n = 0; n < coded_.size(); ++n) {
       const std::size_t i = coded_[n];
@@ -70,6 +74,22 @@ class Planner {
     }
     guard_fap4(run.face);
     return run;
+  }
+
+  // Whether all intra planes could do with the default ranges: once ranges are sent, decoders have
+  // no others until new ones come.
+  bool fits_default_ranges() const {
+    bool any = false;
+    for (const std::size_t i : coded_) {
+      if (channel(i).body) continue;
+      any = true;
+      const int number = range_number(fap::info(channel(i).number).default_i_range, 1);
+      const std::int32_t most = level_range(number, scale(i));
+      for (const std::size_t plane : begins_) {
+        if (std::abs(std::int64_t(decision_.rows[i].levels[plane])) > most) return false;
+      }
+    }
+    return any;
   }
 
   // The coarse plane, with ranges for the changes of all runs behind it.
@@ -207,14 +227,15 @@ class Planner {
   const std::vector<std::size_t>& hazardous_;
   std::vector<std::size_t> coded_;  // channels, FAPs first
   std::size_t faps_ = 0;            // of them
+  bool default_ranges_ = false;     // no intra ranges are sent
 };
 
 }  // namespace
 
 Result<std::vector<Run>> plan_runs(const ClipData& clip, const Decision& decision,
                                    const std::vector<std::size_t>& begins,
-                                   const std::vector<std::size_t>& hazardous) {
-  return Planner(clip, decision, begins, hazardous).plan();
+                                   const PlanOptions& options) {
+  return Planner(clip, decision, begins, options).plan();
 }
 
 }  // namespace animeme::fba::internal

@@ -21,6 +21,7 @@ struct PlanOptions {
   // Planes whose bits held a hazard, ascending, one entry for each time: the runs that they are in
   // get other ranges for the same values, and so other bits.
   std::vector<std::size_t> hazardous;
+  bool default_ranges = false;  // as EncodeOptions
 };
 
 /// Planes in which something changes, the first, the last, and so many in between that the rest can
@@ -36,10 +37,10 @@ std::vector<std::size_t> coded_channels(const Decision& decision);
 std::vector<std::size_t> run_begins(const ClipData& clip, const Decision& decision,
                                     const PlanOptions& options);
 
-/// What the planes at `begins`, run_begins(), settle. `hazardous`: that of PlanOptions. Error
-/// out_of_range if an intra plane cannot hold a value, or 32 bits its reconstruction.
+/// What the planes at `begins`, run_begins(), settle. Error out_of_range if an intra plane cannot
+/// hold a value, or 32 bits its reconstruction.
 Result<std::vector<Run>> plan_runs(const ClipData& clip, const Decision& decision,
                                    const std::vector<std::size_t>& begins,
-                                   const std::vector<std::size_t>& hazardous);
+                                   const PlanOptions& options);
 
 }  // namespace animeme::fba::internal

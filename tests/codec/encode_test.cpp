@@ -9,6 +9,7 @@
 #include "codec/decode/fill.h"
 #include "codec/encode/live.h"
 #include "fap/compare.h"
+#include "tests/codec/two_decoders.h"
 #include "tests/support/random_clip.h"
 
 namespace animeme {
@@ -128,6 +129,57 @@ TEST(KeptRanges, SaveBitsWhereSmallChangesAreMany) {
   const auto kept = fba::encode(clip, options);
   ASSERT_TRUE(plain && kept);
   EXPECT_LT(double(kept->size()), 0.8 * double(plain->size()));
+}
+
+TEST_P(Presets, DefaultRangesAreNotSent) {
+  const fap::Sequence clip = talking_clip(GetParam(), 120);
+  fba::EncodeOptions options = fba::live_options();
+  options.fap_quant = 1 + int(GetParam() % 5);
+  options.intra_seconds = 1;
+  const auto plain = fba::encode(clip, options);
+  options.default_ranges = true;
+  fba::EncodeReport report;
+  const auto smaller = fba::encode(clip, options, {}, &report);
+  ASSERT_TRUE(plain);
+  ASSERT_TRUE(smaller) << smaller.error().describe();
+  expect_same_values(filled(*plain, false), filled(*smaller, false));
+  const auto decoded = fba::decode(*smaller);
+  ASSERT_TRUE(decoded);
+  for (const fba::Plane& plane : decoded->planes) {
+    EXPECT_EQ(plane.face_settings->send_range[fba::kIntraMax], !report.default_ranges);
+    EXPECT_EQ(plane.face_settings->send_range[fba::kIntraMin], !report.default_ranges);
+    EXPECT_TRUE(plane.face_settings->send_range[fba::kPredictiveMax]);
+  }
+  EXPECT_TRUE(test::both_read(*smaller));
+  options.kept_ranges = true;
+  options.intra_seconds = 0;
+  EXPECT_EQ(fba::encode(clip, options).error().code, Code::invalid_argument);
+}
+
+TEST(DefaultRanges, AreUsedWhereAllValuesLieWithinThem) {
+  fap::Sequence clip;
+  for (int i = 0; i < 100; ++i) {
+    fap::Frame frame;
+    frame.number = i;
+    for (int fap = 3; fap <= 28; ++fap) frame.set(fap, 5 * (i % 20));
+    clip.frames.push_back(frame);
+  }
+  fba::EncodeOptions options = fba::live_options();
+  options.intra_seconds = 1;
+  const auto plain = fba::encode(clip, options);
+  options.default_ranges = true;
+  fba::EncodeReport report;
+  const auto smaller = fba::encode(clip, options, {}, &report);
+  ASSERT_TRUE(plain && smaller);
+  EXPECT_TRUE(report.default_ranges);
+  EXPECT_LT(smaller->size(), plain->size());
+  EXPECT_TRUE(test::both_read(*smaller));
+  // One value that is out of them: all intra planes send theirs.
+  clip.frames[25].set(3, fap::info(3).quant_step * (fap::info(3).default_i_range + 60));
+  const auto sent = fba::encode(clip, options, {}, &report);
+  ASSERT_TRUE(sent);
+  EXPECT_FALSE(report.default_ranges);
+  EXPECT_TRUE(test::both_read(*sent));
 }
 
 TEST_P(Presets, FileIsSmaller) {

@@ -285,5 +285,94 @@ TEST(LiveEncoder, RefusesOptionsOutOfBounds) {
   EXPECT_EQ(fba::LiveEncoder({.rate = {10, 3}}).write(frame).error().code, Code::invalid_argument);
 }
 
+// What a delayed encoder writes, unit by unit.
+std::vector<std::vector<std::uint8_t>> send_delayed(const fap::Sequence& clip,
+                                                    const fba::LiveOptions& options,
+                                                    std::size_t delay) {
+  std::vector<std::vector<std::uint8_t>> units;
+  fba::LiveEncoder encoder(options);
+  for (std::size_t i = 0; i < clip.frames.size(); ++i) {
+    const auto unit = encoder.write(clip.frames[i]);
+    EXPECT_TRUE(unit) << unit.error().describe();
+    if (!unit) return units;
+    EXPECT_EQ(unit->empty(), i < delay);
+    if (!unit->empty()) units.push_back(*unit);
+    EXPECT_EQ(encoder.held(), std::min(i + 1, delay));
+  }
+  std::vector<std::uint8_t> unit;
+  while (encoder.held() > 0) {
+    EXPECT_TRUE(encoder.write_held(unit));
+    units.push_back(unit);
+  }
+  units.push_back(encoder.finish());
+  return units;
+}
+
+TEST_P(Live, ADelayGivesTheRangesOfWhatComes) {
+  fap::Sequence clip = calm_clip(130);
+  if (GetParam() % 2 == 0) {
+    clip = test::random_clip(GetParam(), 60);
+    clip.rate = {25, 1};
+    for (std::size_t i = 0; i < clip.frames.size(); ++i) {
+      clip.frames[i].number = std::int64_t(i);
+      clip.frames[i].mask = clip.frames[0].mask;
+    }
+  }
+  fba::LiveOptions options;
+  options.fap_quant = 1 + int(GetParam() % 4);
+  options.intra_seconds = 1;
+  const Sent at_once = send(clip, options);
+  options.delay_seconds = 1;
+  const auto units = send_delayed(clip, options, 25);
+  ASSERT_EQ(units.size(), clip.frames.size() + 1);
+  std::vector<std::uint8_t> stream;
+  for (const auto& unit : units) stream.insert(stream.end(), unit.begin(), unit.end());
+  const auto decoded = fba::decode(stream);
+  ASSERT_TRUE(decoded) << decoded.error().describe();
+  ASSERT_EQ(decoded->planes.size(), clip.frames.size());
+  // As tight as the changes from one intra plane to the next allow.
+  std::size_t begin = 0;
+  for (std::size_t i = 1; i <= decoded->planes.size(); ++i) {
+    if (i < decoded->planes.size() && !decoded->planes[i].intra) continue;
+    const fba::FaceSettings& settings = *decoded->planes[begin].face_settings;
+    for (int fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
+      if (!settings.mask[std::size_t(fap)]) continue;
+      std::int64_t up = 0, down = 0;
+      for (std::size_t k = begin + 1; k < i; ++k) {
+        const std::int64_t change = std::int64_t(decoded->planes[k].face.value[std::size_t(fap)]) -
+                                    decoded->planes[k - 1].face.value[std::size_t(fap)];
+        up = std::max(up, change);
+        down = std::max(down, -change);
+      }
+      const int unit = fap::info(fap).quant_step * 60;  // a range number, as a value
+      EXPECT_EQ(settings.range[fba::kPredictiveMax][std::size_t(fap)], (up + unit - 1) / unit);
+      EXPECT_EQ(settings.range[fba::kPredictiveMin][std::size_t(fap)], (down + unit - 1) / unit);
+    }
+    begin = i;
+  }
+  if (GetParam() % 2 != 0) {
+    EXPECT_LT(stream.size(), join(at_once, 0).size());
+  }
+}
+
+TEST(Live, ADelayIsCheckedAndMayBeLongerThanTheStream) {
+  fba::LiveOptions options;
+  options.delay_seconds = -1;
+  EXPECT_EQ(fba::LiveEncoder(options).write({}).error().code, Code::invalid_argument);
+  options.delay_seconds = std::nan("");
+  EXPECT_EQ(fba::LiveEncoder(options).write({}).error().code, Code::invalid_argument);
+  options.delay_seconds = 10;
+  fba::LiveEncoder encoder(options);
+  const fap::Sequence clip = calm_clip(30);
+  for (const fap::Frame& frame : clip.frames) {
+    const auto unit = encoder.write(frame);
+    ASSERT_TRUE(unit);
+    EXPECT_TRUE(unit->empty());
+  }
+  const auto decoded = fba::decode(encoder.finish());
+  ASSERT_TRUE(decoded) << decoded.error().describe();
+  EXPECT_EQ(decoded->planes.size(), 30U);
+}
+
 }  // namespace live_test
 }  // namespace animeme

@@ -118,6 +118,7 @@ inline fba::EncodeOptions some_options(Random& random) {
   // These search, which takes long.
   if (random.chance(2)) options.max_bits_per_second = random.range(100, 1000);
   if (random.chance(2)) options.max_rms = random.range(1, 5);
+  options.default_ranges = !options.kept_ranges && random.chance(25);
   return options;
 }
 

@@ -369,6 +369,7 @@ fba::EncodeOptions make_options(Source& in) {
   if (in.one_in(4)) options.still_below = in.limit();
   options.verify = in.flag();
   if (options.intra_seconds == 0) options.kept_ranges = in.flag();
+  if (!options.kept_ranges) options.default_ranges = in.flag();
   return options;
 }
 

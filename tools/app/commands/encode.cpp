@@ -8,6 +8,7 @@
 #include "fap/rate_text.h"
 #include "tools/app/commands/clip_file.h"
 #include "tools/app/commands/common.h"
+#include "tools/app/commands/face_stream.h"
 #include "tools/app/commands/outputs.h"
 #include "tools/formats/common/bit_rate.h"
 #include "tools/formats/common/json.h"
@@ -36,6 +37,7 @@ struct EncodeOptions {
   double still_below = 0;
   bool skip_still = false;
   bool kept_ranges = false;
+  bool default_ranges = false;
   bool json = false;
 
   // Who joins a live stream looks for a start code; what is read from its begin needs none.
@@ -115,6 +117,7 @@ Result<Outcome> encode_clip(const EncodeOptions& options, fba::EncodeReport& rep
   if (options.intra_period) settings.intra_seconds = clip->rate().seconds(*options.intra_period);
   settings.stream = options.stream();
   settings.kept_ranges = options.kept_ranges;
+  settings.default_ranges = options.default_ranges;
   settings.max_rms = options.rms;
   settings.max_bits_per_second = options.kbps * 1000;
   settings.still_below = options.still_below;
@@ -171,6 +174,7 @@ void tell(const EncodeOptions& options, const Outcome& outcome, const fba::Encod
     if (report.kept_ranges) line += ", ranges kept from a coarse first plane";
   }
   say(line);
+  if (options.default_ranges) warn_of_default_ranges(report.default_ranges);
   if (report.limited > 0) {
     warn(
         format("%zu values are out of the range of a plane, +-1860 quantiser steps, and were "
@@ -197,7 +201,8 @@ void tell(const EncodeOptions& options, const Outcome& outcome, const fba::Encod
                      {"stilled", report.stilled},
                      {"skipped", report.skipped},
                      {"limited", report.limited},
-                     {"kept_ranges", report.kept_ranges}});
+                     {"kept_ranges", report.kept_ranges},
+                     {"default_ranges", report.default_ranges}});
   }
   std::printf("%s\n", pretty(json).c_str());
 }
@@ -220,6 +225,12 @@ const char* contradiction(const EncodeOptions& options, Preset preset) {
     return "--rms, --kbps, --still-below and --skip-still need --preset file or live";
   }
   if (options.kept_ranges && preset != Preset::file) return "--kept-ranges needs --preset file";
+  if (options.default_ranges && preset != Preset::file && preset != Preset::live) {
+    return "--default-ranges needs --preset file or live";
+  }
+  if (options.default_ranges && options.kept_ranges) {
+    return "--default-ranges and --kept-ranges exclude each other: leave one out";
+  }
   if (options.intra_seconds && options.intra_period) {
     return "--intra-seconds and --intra-period say the same: leave one out";
   }
@@ -292,6 +303,8 @@ void add_options(OptionTable& cli, EncodeOptions& options) {
   cli.add("--kept-ranges", options.kept_ranges,
           "file: the first plane is coarse and the ranges of the others are finer; about 5 % "
           "smaller for speech, for players that keep ranges as numbers of levels");
+  add_default_ranges_option(cli, options.default_ranges);
+  cli.get("--default-ranges")->help = "file, live: " + cli.get("--default-ranges")->help;
   cli.add("--quant", options.quant,
           "Quantiser of face and body; the error of 1 (the default) is not visible (a head "
           "turns in steps of 0.097 degrees, which our players ease), 0 is lossless up to +-1860")

@@ -36,6 +36,20 @@ void add_limit_options(OptionTable& cli, StreamSettings& settings, const std::st
       ->excludes((others + " --rms --kbps").c_str());
 }
 
+void add_default_ranges_option(OptionTable& cli, bool& default_ranges) {
+  cli.add(
+      "--default-ranges", default_ranges,
+      "Send no intra ranges: players use their default ranges, which differ between the printed "
+      "standard and the reference decoder (these are the latter's). Only for players that were "
+      "tested with it");
+}
+
+void warn_of_default_ranges(bool done) {
+  warn(done ? "--default-ranges: players with other tables of default ranges than the reference "
+              "decoder read wrong values; give this stream to players that were tested with it only"
+            : "--default-ranges has no effect: some values lie outside the default ranges");
+}
+
 void add_stream_options(OptionTable& cli, StreamSettings& settings) {
   add_coding_options(cli, settings);
   cli.add("--intra-seconds", settings.intra_seconds,

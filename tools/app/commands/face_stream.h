@@ -33,6 +33,12 @@ void add_coding_options(OptionTable& cli, StreamSettings& settings);
 /// Adds the last three of these, which exclude `others`, separated by blanks.
 void add_limit_options(OptionTable& cli, StreamSettings& settings, const std::string& others);
 
+/// Adds --default-ranges.
+void add_default_ranges_option(OptionTable& cli, bool& default_ranges);
+
+/// Warns of what --default-ranges has done, or that it had no effect as values lie outside.
+void warn_of_default_ranges(bool done);
+
 /// Adds --quant, these and --intra-seconds.
 void add_stream_options(OptionTable& cli, StreamSettings& settings);
 

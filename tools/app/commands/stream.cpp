@@ -257,6 +257,13 @@ Result<int> run(StreamOptions& options) {
         "--rms, --kbps and --small need a clip that is known: a file or --text; for speech that "
         "is made while it is sent there is --quant");
   }
+  if (!live && what.coding_delay > 0) {
+    return usage_error("--encoder-delay is for speech that is made while it is sent");
+  }
+  if (coding.default_ranges) {
+    if (live) return usage_error("--default-ranges needs a clip that is known: a file or --text");
+    warn_of_default_ranges(true);
+  }
   const bool opus = options.codec.empty() ? live || rtc : options.codec == "opus";
   options.program.coding.audio.codec = opus ? media::AudioCodec::opus : media::AudioCodec::aac;
   if (!options.heads.heads.empty()) {

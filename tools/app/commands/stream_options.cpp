@@ -75,6 +75,12 @@ void add_coding_options(OptionTable& cli, StreamOptions& options) {
   for (const char* name : {"--rms", "--kbps", "--small"}) {
     cli.get(name)->help += "; for clips that are known";
   }
+  cli.add("--encoder-delay", options.program.coding_delay,
+          "--say, --say-audio: send face and sound so many seconds later; intra planes then know "
+          "what follows, and get the tightest ranges if that reaches to the next of them")
+      ->between(0.0, 10.0);
+  add_default_ranges_option(cli, options.program.coding.default_ranges);
+  cli.get("--default-ranges")->help += "; for clips that are known";
   cli.add("--audio-codec", options.codec,
           "aac or opus; default: that of the file, opus for --say, else aac")
       ->one_of("aac opus");
@@ -149,7 +155,9 @@ void add_options(OptionTable& cli, StreamOptions& options) {
       "--tier --speaker --speak-marks --script-format --max-seconds --speed --pitch --liveliness "
       "--look --still --seed --no-tongue --mtu --repeat --repeat-after "
       "--bundle --max-clients --max-per-address --allow-origin --host-name --delay --intra-seconds "
-      "--points --shape-name --shape-names --gain --copy --quant --rms --kbps --small --sharpness "
+      "--points --shape-name --shape-names --gain --copy --quant --rms --kbps --small "
+      "--default-ranges "
+      "--sharpness "
       "--articulate "
       "--audio-codec --audio-bitrate");
 }

@@ -30,6 +30,7 @@ Result<fba::AccessUnits> code(const fap::Sequence& face, std::span<const fba::Bo
   options.max_rms = coding.max_rms;
   options.max_bits_per_second = bit_rate_of_planes(coding.max_bits_per_second, face.rate);
   options.skip_still = coding.skip_still;
+  options.default_ranges = coding.default_ranges;
   options.leave_out = options.leave_out || has_limits(coding);
   const auto stream = fba::encode(face, options, body);
   if (!stream) return stream.error();
@@ -132,7 +133,7 @@ Result<std::optional<fba::AccessUnits>> with_joints(const fba::AccessUnits& unit
   // A plane of tolerance: periods are whole numbers of planes.
   const double plane = decoded.rate.seconds(1);
   const double longest = longest_intra_interval(with_true_joints(units, decoded));
-  if (longest <= coding.intra_seconds + plane && !has_limits(coding)) {
+  if (longest <= coding.intra_seconds + plane && !has_limits(coding) && !coding.default_ranges) {
     return std::optional<fba::AccessUnits>();
   }
   auto again = code_again(decoded, coding);

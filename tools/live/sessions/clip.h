@@ -21,6 +21,7 @@ struct Coding {
   double max_rms = 0;  ///< as fba::EncodeOptions::max_rms; > 0: coded streams are re-encoded
   double max_bits_per_second = 0;  ///< likewise, with start codes
   bool skip_still = false;         ///< likewise
+  bool default_ranges = false;     ///< likewise
   double intra_seconds = 1;        ///< coded streams with longer intervals are re-encoded
   bool copy = false;               ///< never re-encode coded streams
   bool sound = true;               ///< false: face only

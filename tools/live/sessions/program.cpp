@@ -104,6 +104,7 @@ Result<void> open_speaker(const ProgramOptions& options, fap::Rate rate, Program
   settings.face = {synthesis_of(options, rate), options.idle_motion, options.idle, options.mood};
   settings.fap_quant = options.coding.quant;
   settings.intra_seconds = options.coding.intra_seconds;
+  settings.coding_delay = options.coding_delay;
   settings.voice_rate = program.lines->sample_rate();
   settings.audio_ahead = kAhead;
   settings.audio.reset();
@@ -135,6 +136,7 @@ Result<void> open_voice(const ProgramOptions& options, fap::Rate rate, Program& 
   settings.delay = options.delay;
   settings.fap_quant = options.coding.quant;
   settings.intra_seconds = options.coding.intra_seconds;
+  settings.coding_delay = options.coding_delay;
   settings.audio_ahead = kAhead;
   settings.audio.reset();
   if (options.coding.sound) settings.audio = options.coding.audio;

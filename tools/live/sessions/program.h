@@ -28,14 +28,15 @@ struct ProgramOptions {
   std::string say_audio;  ///< sound of a live voice, "-": standard input
   std::optional<speech::BareSound> bare;            ///< format of raw samples; nullopt: WAV
   double delay = speech::LiveVoiceOptions().delay;  ///< seconds, for a live voice
-  speech::SpokenOptions spoken;                     ///< text, script or voice
-  Coding coding;                                    ///< of face and sound
-  std::string model;                                ///< argument of speech::read_model()
-  dam::SynthesisOptions motion;                     ///< its rate, frames and tail are not used
-  bool idle_motion = true;                          ///< gaze, blinks, brows and head
-  dam::IdleMotionOptions idle;                      ///< of the idle motion; without `prosody`
-  dam::Mood mood;                                   ///< of the face
-  bool loop = false;                                ///< repeat clips
+  double coding_delay = 0;       ///< seconds, as speech::SpeakerOptions::coding_delay
+  speech::SpokenOptions spoken;  ///< text, script or voice
+  Coding coding;                 ///< of face and sound
+  std::string model;             ///< argument of speech::read_model()
+  dam::SynthesisOptions motion;  ///< its rate, frames and tail are not used
+  bool idle_motion = true;       ///< gaze, blinks, brows and head
+  dam::IdleMotionOptions idle;   ///< of the idle motion; without `prosody`
+  dam::Mood mood;                ///< of the face
+  bool loop = false;             ///< repeat clips
   double duration = std::numeric_limits<double>::infinity();  ///< seconds
 };
 

@@ -39,11 +39,13 @@ fba::PredictiveRanges ranges_of_face(const dam::Model& model, int fap_quant, Tal
 }  // namespace
 
 fba::LiveOptions coding_of_face(const dam::Model& model, const TalkingFace& face,
-                                const fap::Rate& rate, int fap_quant, double intra_seconds) {
+                                const fap::Rate& rate, int fap_quant, double intra_seconds,
+                                double delay) {
   fba::LiveOptions coding;
   coding.rate = rate;
   coding.fap_quant = fap_quant;
   coding.intra_seconds = intra_seconds;
+  coding.delay_seconds = delay;
   // All FAPs that occur: those of a mood join, with an intra plane, when it is first shown. At rest
   // they would cost a third of the stream.
   coding.ranges = ranges_of_face(model, fap_quant, face);

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
+#include <utility>
+#include <vector>
 
 #include "codec/encode/live.h"
 #include "dam/model/model.h"
@@ -12,9 +15,30 @@
 
 namespace animeme::speech {
 
-/// For a face that has not spoken yet.
+/// For a face that has not spoken yet. `delay`: LiveOptions::delay_seconds.
 fba::LiveOptions coding_of_face(const dam::Model& model, const TalkingFace& face,
-                                const fap::Rate& rate, int fap_quant, double intra_seconds);
+                                const fap::Rate& rate, int fap_quant, double intra_seconds,
+                                double delay);
+
+/// Sound that waits for a face which is coded with a delay, so that both are sent together.
+class WaitingSound {
+ public:
+  /// A packet that is sent at `due`, in seconds.
+  void add(media::LiveUnit packet, double due) { packets_.push_back({std::move(packet), due}); }
+  /// Moves those that are due behind `units`.
+  void release(double now, std::vector<media::LiveUnit>& units) {
+    for (; !packets_.empty() && packets_.front().due <= now; packets_.pop_front()) {
+      units.push_back(std::move(packets_.front().packet));
+    }
+  }
+
+ private:
+  struct Waiting {
+    media::LiveUnit packet;
+    double due = 0;
+  };
+  std::deque<Waiting> packets_;
+};
 
 /// Configuration and clock of a stream.
 struct FaceShape {

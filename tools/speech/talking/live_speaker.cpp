@@ -27,6 +27,7 @@ Result<LiveUnit> LiveSpeaker::Impl::make_plane() {
   const double begun = clock->now();
   Result<std::vector<std::uint8_t>> bytes = encoder.write(*frame);
   if (!bytes) return bytes.error();
+  unit.time -= std::int64_t(encoder.held()) * frame_ticks;
   traces.coded(unit, begun, clock->now());
   unit.bytes = std::move(*bytes);
   unit.intra = encoder.intra();
@@ -59,8 +60,9 @@ Result<std::unique_ptr<LiveSpeaker>> LiveSpeaker::open(const dam::Model& model, 
     if (!opened) return opened.error();
     sound = std::move(*opened);
   }
-  const fba::LiveOptions live = coding_of_face(model, *face, options.face.synthesis.rate,
-                                               options.fap_quant, options.intra_seconds);
+  const fba::LiveOptions live =
+      coding_of_face(model, *face, options.face.synthesis.rate, options.fap_quant,
+                     options.intra_seconds, options.coding_delay);
   Result<FaceShape> shape = shape_of_face(live, *face);
   if (!shape) return shape.error();
   media::LiveInfo info = std::move(shape->info);
@@ -78,7 +80,7 @@ double LiveSpeaker::audio_ahead() const { return impl_->options.audio_ahead; }
 std::optional<double> LiveSpeaker::next_due() {
   if (silent() && impl_->lines->ended()) return std::nullopt;
   const double due = std::min(impl_->frame_due(), impl_->sound_due());
-  if (due >= impl_->options.duration) return std::nullopt;
+  if (due >= impl_->options.duration + impl_->options.coding_delay) return std::nullopt;
   return due;
 }
 
@@ -87,11 +89,19 @@ Result<std::vector<LiveUnit>> LiveSpeaker::take(double now) {
   impl_->collect(now);
   for (;;) {
     const bool sound_first = impl_->sound_due() <= impl_->frame_due();
-    if (std::min(impl_->sound_due(), impl_->frame_due()) > now) return units;
+    const double due = std::min(impl_->sound_due(), impl_->frame_due());
+    if (due > now) {
+      impl_->waiting_sound.release(now, units);
+      return units;
+    }
     if (!sound_first) impl_->begin_lines(now);
     Result<LiveUnit> unit = sound_first ? impl_->make_packet() : impl_->make_plane();
     if (!unit) return unit.error();
-    units.push_back(std::move(*unit));
+    if (sound_first && impl_->options.coding_delay > 0) {
+      impl_->waiting_sound.add(std::move(*unit), due + impl_->options.coding_delay);
+    } else if (!unit->bytes.empty()) {
+      units.push_back(std::move(*unit));
+    }
   }
 }
 
@@ -104,7 +114,8 @@ void LiveSpeaker::sent(const LiveUnit& unit, double instant) {
 }
 
 bool LiveSpeaker::silent() const {
-  const bool settled = impl_->frame_due() >= std::max(impl_->settled, impl_->end_of_speech());
+  const double end = std::max(impl_->settled, impl_->end_of_speech());
+  const bool settled = impl_->frame_due() >= end + impl_->options.coding_delay;
   return !impl_->waiting && !impl_->face.speaking() && settled;
 }
 

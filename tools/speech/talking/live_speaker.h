@@ -34,7 +34,9 @@ struct SpeakerOptions {
   FaceOptions face;          ///< motion of the face
   int fap_quant = 1;         ///< 0..31; 0: gaze and head stay still, as angles end at one degree
   double intra_seconds = 1;  ///< seconds between intra planes
-  int voice_rate = 22050;    ///< Hz, of the lines' sound; other rates are converted
+  /// Face and sound are sent so many seconds later, 0..60, as of fba::LiveOptions::delay_seconds.
+  double coding_delay = 0;
+  int voice_rate = 22050;  ///< Hz, of the lines' sound; other rates are converted
   /// Audio encoder settings; nullopt: face only.
   std::optional<media::AudioSettings> audio = media::AudioSettings{};
   double audio_ahead = 0.02;  ///< seconds by which sound is sent early, 0..1

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/speech/talking/face_coding_internal.h"
 #include "tools/speech/talking/line_events.h"
 #include "tools/speech/talking/line_traces_internal.h"
 #include "tools/speech/talking/live_sound.h"
@@ -23,6 +24,7 @@ struct LiveSpeaker::Impl {
   fba::LiveEncoder encoder;
   media::LiveInfo info;
   std::int64_t frame_ticks = 1;
+  WaitingSound waiting_sound;
 
   struct Waiting {
     SpokenLine line;

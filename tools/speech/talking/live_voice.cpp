@@ -42,6 +42,7 @@ struct LiveVoice::Impl {
   fba::LiveEncoder encoder;
   media::LiveInfo info;
   std::int64_t frame_ticks;
+  WaitingSound waiting_sound = {};
 
   std::deque<fap::Frame> frames;  // that are made
   std::int64_t number = 0;        // of the next plane
@@ -121,6 +122,7 @@ Result<LiveUnit> LiveVoice::Impl::make_plane() {
   frame.number = number++;
   Result<std::vector<std::uint8_t>> bytes = encoder.write(frame);
   if (!bytes) return bytes.error();
+  unit.time -= std::int64_t(encoder.held()) * frame_ticks;
   unit.bytes = std::move(*bytes);
   unit.intra = encoder.intra();
   return unit;
@@ -158,8 +160,9 @@ Result<std::unique_ptr<LiveVoice>> LiveVoice::open(const dam::Model& model,
     if (!opened) return opened.error();
     sound = std::move(*opened);
   }
-  const fba::LiveOptions coding = coding_of_face(model, *resting, options.synthesis.rate,
-                                                 options.fap_quant, options.intra_seconds);
+  const fba::LiveOptions coding =
+      coding_of_face(model, *resting, options.synthesis.rate, options.fap_quant,
+                     options.intra_seconds, options.coding_delay);
   Result<FaceShape> shape = shape_of_face(coding, *resting);
   if (!shape) return shape.error();
   media::LiveInfo info = std::move(shape->info);
@@ -180,7 +183,9 @@ double LiveVoice::audio_ahead() const { return impl_->options.audio_ahead; }
 
 std::optional<double> LiveVoice::next_due() {
   const double due = std::min(impl_->frame_due(), impl_->sound_due());
-  if (due >= impl_->options.duration || (impl_->end && due >= *impl_->end)) return std::nullopt;
+  const double end =
+      std::min(impl_->options.duration, impl_->end.value_or(impl_->options.duration));
+  if (due >= end + impl_->options.coding_delay) return std::nullopt;
   return due;
 }
 
@@ -189,16 +194,25 @@ Result<std::vector<LiveUnit>> LiveVoice::take(double now) {
   if (auto ok = impl_->fill(now); !ok) return ok.error();
   for (;;) {
     const bool sound_first = impl_->sound_due() <= impl_->frame_due();
-    if (std::min(impl_->sound_due(), impl_->frame_due()) > now) return units;
+    const double due = std::min(impl_->sound_due(), impl_->frame_due());
+    if (due > now) {
+      impl_->waiting_sound.release(now, units);
+      return units;
+    }
     if (sound_first) {
       Result<media::AudioPacket> packet = impl_->sound->next();
       if (!packet) return packet.error();
-      units.push_back(
-          {LiveTrack::audio, std::move(packet->bytes), false, packet->time, packet->duration});
+      LiveUnit unit{LiveTrack::audio, std::move(packet->bytes), false, packet->time,
+                    packet->duration};
+      if (impl_->options.coding_delay > 0) {
+        impl_->waiting_sound.add(std::move(unit), due + impl_->options.coding_delay);
+      } else {
+        units.push_back(std::move(unit));
+      }
     } else {
       Result<LiveUnit> unit = impl_->make_plane();
       if (!unit) return unit.error();
-      units.push_back(std::move(*unit));
+      if (!unit->bytes.empty()) units.push_back(std::move(*unit));
     }
   }
 }

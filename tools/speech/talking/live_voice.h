@@ -33,6 +33,7 @@ struct LiveVoiceOptions {
   double delay = 0.3;               ///< seconds from arrival of sound to its face, 0.25..2
   int fap_quant = 1;                ///< 0..31
   double intra_seconds = 1;         ///< seconds between intra planes
+  double coding_delay = 0;          ///< as SpeakerOptions::coding_delay, besides `delay`
   /// Audio encoder settings; nullopt: face only.
   std::optional<media::AudioSettings> audio = media::AudioSettings{};
   double audio_ahead = 0.02;  ///< seconds by which sound is sent early, 0..0.1
