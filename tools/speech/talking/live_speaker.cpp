@@ -23,7 +23,10 @@ Result<LiveUnit> LiveSpeaker::Impl::make_plane() {
   const bool speaking = face.speaking();
   const Result<fap::Frame> frame = face.next();
   if (!frame) return frame.error();
-  if (speaking && !face.speaking()) silent_since = clock->now();
+  if (speaking && !face.speaking()) {
+    silent_since = clock->now();
+    face_rests = frame_due();
+  }
   const double begun = clock->now();
   Result<std::vector<std::uint8_t>> bytes = encoder.write(*frame);
   if (!bytes) return bytes.error();
@@ -114,7 +117,8 @@ void LiveSpeaker::sent(const LiveUnit& unit, double instant) {
 }
 
 bool LiveSpeaker::silent() const {
-  const double end = std::max(impl_->settled, impl_->end_of_speech());
+  const double sound_end = double(impl_->sound_end) / impl_->options.voice_rate;
+  const double end = std::max({impl_->settled, sound_end, impl_->face_rests});
   const bool settled = impl_->frame_due() >= end + impl_->options.coding_delay;
   return !impl_->waiting && !impl_->face.speaking() && settled;
 }

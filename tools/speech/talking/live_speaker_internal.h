@@ -33,6 +33,7 @@ struct LiveSpeaker::Impl {
   std::optional<Waiting> waiting;
   std::int64_t sound_end = 0;  // sample after the last line's sound
   double silent_since = -1;    // instant of the clock; -1: nothing was spoken yet
+  double face_rests = 0;       // presentation time at which the last line's motion is over
   double settled = 0;          // presentation time at which a mouth that was cut off is at rest
   LineEvents events;
   LineTraces traces;
