@@ -10,6 +10,7 @@
 #include "codec/decode/decoder.h"
 #include "dam/model/builtin.h"
 #include "dam/signal/fap_signal.h"
+#include "fap/tables.h"
 
 namespace animeme::speech {
 namespace speaker_test {
@@ -125,6 +126,61 @@ TEST_F(Speaker, IdlesForEverAtRestInSilence) {
   EXPECT_EQ(packets[0].time, -speaker->info().audio->priming);
   for (const float sample : sound().samples) ASSERT_LT(std::abs(sample), 1e-3F);
   EXPECT_TRUE(speaker->next_due());
+}
+
+TEST_F(Speaker, ADelaySendsTheSameLaterInTighterRanges) {
+  std::vector<fap::Sequence> faces;
+  std::vector<std::size_t> bytes;
+  std::vector<double> heard;
+  for (const double delay : {0.0, 1.0}) {
+    planes.clear();
+    packets.clear();
+    lines.over = false;
+    SpeakerOptions options;
+    options.coding_delay = delay;
+    open(options);
+    double due = -1;
+    const auto go_on = [&](double until) {
+      while (const auto next = speaker->next_due()) {
+        if (*next >= until) return;
+        EXPECT_GE(*next, due);
+        due = *next;
+        clock.sleep_until(due);
+        auto made = speaker->take(due);
+        ASSERT_TRUE(made) << made.error().describe();
+        for (LiveUnit& unit : *made) {
+          EXPECT_NEAR(media::due_of(*speaker, unit), due, 1e-9);
+          (unit.track == LiveTrack::face ? planes : packets).push_back(std::move(unit));
+        }
+      }
+    };
+    go_on(2.01);
+    lines.waiting.push_back(make_line());
+    lines.over = true;
+    go_on(100);
+    faces.push_back(face());
+    heard.push_back(first_sound(sound()));
+    std::size_t sum = 0;
+    for (const LiveUnit& plane : planes) sum += plane.bytes.size();
+    bytes.push_back(sum);
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+      EXPECT_EQ(planes[i].time, std::int64_t(i) * 1000);
+    }
+  }
+  // The end may be some planes of rest later.
+  ASSERT_GT(faces[0].frames.size(), 60u);
+  ASSERT_GE(faces[1].frames.size(), faces[0].frames.size());
+  for (std::size_t i = 0; i < faces[0].frames.size(); ++i) {
+    // Intra planes, which round anew, may lie elsewhere.
+    for (int fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
+      ASSERT_NEAR(faces[1].frames[i].value[std::size_t(fap)],
+                  faces[0].frames[i].value[std::size_t(fap)], fap::info(fap).quant_step)
+          << i;
+    }
+  }
+  EXPECT_NEAR(heard[1], heard[0], 1e-3);
+  EXPECT_LT(double(bytes[1]) / double(faces[1].frames.size()),
+            double(bytes[0]) / double(faces[0].frames.size()));
 }
 
 TEST_F(Speaker, ALineIsSeenAndHeardAtTheSameInstant) {

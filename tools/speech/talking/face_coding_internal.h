@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -25,6 +26,10 @@ class WaitingSound {
  public:
   /// A packet that is sent at `due`, in seconds.
   void add(media::LiveUnit packet, double due) { packets_.push_back({std::move(packet), due}); }
+  /// When the first of them is due; infinity: there is none.
+  double next_due() const {
+    return packets_.empty() ? std::numeric_limits<double>::infinity() : packets_.front().due;
+  }
   /// Moves those that are due behind `units`.
   void release(double now, std::vector<media::LiveUnit>& units) {
     for (; !packets_.empty() && packets_.front().due <= now; packets_.pop_front()) {

@@ -79,10 +79,12 @@ Result<std::unique_ptr<LiveSpeaker>> LiveSpeaker::open(const dam::Model& model, 
 
 const media::LiveInfo& LiveSpeaker::info() const { return impl_->info; }
 double LiveSpeaker::audio_ahead() const { return impl_->options.audio_ahead; }
+double LiveSpeaker::delay() const { return impl_->options.coding_delay; }
 
 std::optional<double> LiveSpeaker::next_due() {
   if (silent() && impl_->lines->ended()) return std::nullopt;
-  const double due = std::min(impl_->frame_due(), impl_->sound_due());
+  const double due =
+      std::min({impl_->frame_due(), impl_->sound_due(), impl_->waiting_sound.next_due()});
   if (due >= impl_->options.duration + impl_->options.coding_delay) return std::nullopt;
   return due;
 }
@@ -93,10 +95,8 @@ Result<std::vector<LiveUnit>> LiveSpeaker::take(double now) {
   for (;;) {
     const bool sound_first = impl_->sound_due() <= impl_->frame_due();
     const double due = std::min(impl_->sound_due(), impl_->frame_due());
-    if (due > now) {
-      impl_->waiting_sound.release(now, units);
-      return units;
-    }
+    impl_->waiting_sound.release(std::min(due, now), units);
+    if (due > now) return units;
     if (!sound_first) impl_->begin_lines(now);
     Result<LiveUnit> unit = sound_first ? impl_->make_packet() : impl_->make_plane();
     if (!unit) return unit.error();

@@ -71,6 +71,7 @@ class LiveSpeaker : public media::LiveInput {
 
   const media::LiveInfo& info() const override;
   double audio_ahead() const override;
+  double delay() const override;
   /// Ends when the lines have ended and the last one is spoken, or at the duration.
   std::optional<double> next_due() override;
   Result<std::vector<media::LiveUnit>> take(double now) override;

@@ -180,9 +180,11 @@ Result<std::unique_ptr<LiveVoice>> LiveVoice::open(const dam::Model& model,
 
 const media::LiveInfo& LiveVoice::info() const { return impl_->info; }
 double LiveVoice::audio_ahead() const { return impl_->options.audio_ahead; }
+double LiveVoice::delay() const { return impl_->options.coding_delay; }
 
 std::optional<double> LiveVoice::next_due() {
-  const double due = std::min(impl_->frame_due(), impl_->sound_due());
+  const double due =
+      std::min({impl_->frame_due(), impl_->sound_due(), impl_->waiting_sound.next_due()});
   const double end =
       std::min(impl_->options.duration, impl_->end.value_or(impl_->options.duration));
   if (due >= end + impl_->options.coding_delay) return std::nullopt;
@@ -195,10 +197,8 @@ Result<std::vector<LiveUnit>> LiveVoice::take(double now) {
   for (;;) {
     const bool sound_first = impl_->sound_due() <= impl_->frame_due();
     const double due = std::min(impl_->sound_due(), impl_->frame_due());
-    if (due > now) {
-      impl_->waiting_sound.release(now, units);
-      return units;
-    }
+    impl_->waiting_sound.release(std::min(due, now), units);
+    if (due > now) return units;
     if (sound_first) {
       Result<media::AudioPacket> packet = impl_->sound->next();
       if (!packet) return packet.error();

@@ -57,6 +57,7 @@ class LiveVoice : public media::LiveInput {
 
   const media::LiveInfo& info() const override;
   double audio_ahead() const override;
+  double delay() const override;
   /// Ends when the sound has ended and been presented, or at the duration.
   std::optional<double> next_due() override;
   Result<std::vector<media::LiveUnit>> take(double now) override;

@@ -32,7 +32,7 @@ double seconds_of(const LiveInfo& info, LiveTrack track, std::int64_t time) {
 }
 
 double due_of(const LiveInput& input, const LiveUnit& unit) {
-  const double seconds = seconds_of(input.info(), unit.track, unit.time);
+  const double seconds = seconds_of(input.info(), unit.track, unit.time) + input.delay();
   return unit.track == LiveTrack::audio ? seconds - input.audio_ahead() : seconds;
 }
 

@@ -40,6 +40,8 @@ class LiveInput {
   virtual Result<std::vector<LiveUnit>> take(double now) = 0;
   /// Seconds that sound is due before its time.
   virtual double audio_ahead() const = 0;
+  /// Seconds that everything is due after its time; until then take() may return nothing.
+  virtual double delay() const { return 0; }
   /// The sender calls this when a unit has been sent, at `instant` of its clock.
   virtual void sent(const LiveUnit& unit, double instant) {
     (void)unit;
