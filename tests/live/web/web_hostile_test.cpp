@@ -1,7 +1,12 @@
 // The program as the client of a server that lies, and one that comes and goes.
+#include <arpa/inet.h>
 #include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "tests/formats/media/live/stream_support.h"
 #include "tests/support/live_reference.h"
@@ -39,6 +44,61 @@ TEST(WebHostile, TimesThatMessagesClaimCostNothing) {
     receive.wait();
     EXPECT_LT(receive.peak_mb(), kMostMegabytes) << name;
     EXPECT_LT(size_of(dir / name), 1000000u) << name << slurp(dir / "err");
+  }
+}
+
+// A socket that listens on this machine.
+class Listener {
+ public:
+  Listener() : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    auto* any = reinterpret_cast<sockaddr*>(&address);
+    if (::bind(socket_, any, size) == 0 && ::listen(socket_, 4) == 0) {
+      ::getsockname(socket_, any, &size);
+      port = ntohs(address.sin_port);
+    }
+  }
+  ~Listener() { ::close(socket_); }
+  Listener(const Listener&) = delete;
+  Listener& operator=(const Listener&) = delete;
+  // A connection, if one comes in time.
+  bool is_called(int milliseconds) const {
+    pollfd waiting{socket_, POLLIN, 0};
+    return ::poll(&waiting, 1, milliseconds) > 0;
+  }
+  int accept() const { return ::accept4(socket_, nullptr, nullptr, SOCK_CLOEXEC); }
+
+  int port = 0;
+
+ private:
+  int socket_;
+};
+
+// A server sends its clients nowhere else: the machine behind it may be reachable from here alone.
+TEST(WebHostile, RedirectsAreNotFollowed) {
+  const Listener server, other;
+  ASSERT_NE(server.port, 0);
+  ASSERT_NE(other.port, 0);
+  for (const char* path : {"/face", "/other"}) {
+    const TempDir dir;
+    Running receive({"receive", "ws://127.0.0.1:" + std::to_string(server.port) + "/", "-o",
+                     dir / "got.fap", "--wait", "2", "--timeout", "1"},
+                    dir / "out", dir / "err");
+    ASSERT_TRUE(server.is_called(10000)) << slurp(dir / "err");
+    const int client = server.accept();
+    char request[4096];
+    ASSERT_GT(::recv(client, request, sizeof request, 0), 0);
+    const std::string answer =
+        "HTTP/1.1 302 Found\r\nLocation: http://127.0.0.1:" + std::to_string(other.port) + path +
+        "\r\nContent-Length: 0\r\n\r\n";
+    ASSERT_EQ(::send(client, answer.data(), answer.size(), MSG_NOSIGNAL), ssize_t(answer.size()));
+    EXPECT_FALSE(other.is_called(1000)) << path;
+    ::close(client);
+    while (server.is_called(0)) ::close(server.accept());
+    EXPECT_NE(receive.wait(), 0);
   }
 }
 

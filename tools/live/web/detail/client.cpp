@@ -66,6 +66,8 @@ bool Client::ask(Connection& connection) {
   info.address = address_.host.c_str();
   info.host = info.address;
   info.port = address_.port;
+  // A server may not send us to machines that it cannot reach itself.
+  info.ssl_connection = LCCSCF_HTTP_NO_FOLLOW_REDIRECT;
   const std::string path = address_.path + (connection.sound ? "/audio" : "/face");
   info.path = path.c_str();
   info.local_protocol_name = "animeme";
