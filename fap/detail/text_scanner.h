@@ -30,29 +30,10 @@ class TextScanner {
   }
 
   /// Goes to the next token, over blanks, comments and line ends. False: the text is over.
-  bool to_content() {
-    for (;;) {
-      skip_blanks();
-      if (at_end()) return false;
-      if (*at_ == '#') {
-        skip_line();
-      } else if (is_line_end(*at_)) {
-        pass_line_end();
-      } else {
-        return true;
-      }
-    }
-  }
+  bool to_content();
 
   /// Reads the next token of this line. Empty: the line (or the text) has no more.
-  std::string_view token() {
-    skip_blanks();
-    if (at_end() || is_line_end(*at_) || *at_ == '#') return {};
-    const char* begin = at_;
-    while (!at_end() && !is_blank(*at_) && !is_line_end(*at_)) ++at_;
-    token_begin_ = begin;
-    return {begin, std::size_t(at_ - begin)};
-  }
+  std::string_view token();
 
   /// Number of tokens that token() would still give on this line, at most `limit`.
   int count_rest(int limit) const {
@@ -111,33 +92,15 @@ class TextScanner {
 };
 
 /// ASCII letters in lower case, the rest as it is.
-inline std::string lower_case(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
-  return out;
-}
+std::string lower_case(std::string_view text);
 
 /// `token` in quotes for a message: unprintable bytes become '?', long ones are cut.
-inline std::string in_quotes(std::string_view token) {
-  constexpr std::size_t longest = 32;
-  std::string text = "'";
-  for (const char c : token.substr(0, longest)) text += c < ' ' || c > '~' ? '?' : c;
-  return text + (token.size() > longest ? "...'" : "'");
-}
+std::string in_quotes(std::string_view token);
 
 /// Whether bytes are UTF-16 without a byte order mark, and then whether the high byte is the first.
 /// Digits, blanks and line ends, of which every file of numbers has many, have a zero byte there,
 /// always on the same side; other encodings of text have no zero bytes, and a single one is damage.
 /// Checks the first 4 kB.
-inline std::optional<bool> unmarked_utf16(std::string_view bytes) {
-  bytes = bytes.substr(0, 4096);
-  std::size_t zeros[2] = {0, 0};
-  for (std::size_t i = 0; i < bytes.size(); ++i) {
-    if (bytes[i] == 0) ++zeros[i % 2];
-  }
-  if ((zeros[0] == 0) == (zeros[1] == 0)) return std::nullopt;
-  if (zeros[0] + zeros[1] < 2 || 16 * (zeros[0] + zeros[1]) < bytes.size()) return std::nullopt;
-  return zeros[0] > 0;
-}
+std::optional<bool> unmarked_utf16(std::string_view bytes);
 
 }  // namespace animeme::fap::detail
