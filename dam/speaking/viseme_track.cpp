@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "dam/speaking/shown_phones_internal.h"
+#include "dam/speaking/viseme_curves.h"
 #include "fap/tables.h"
 #include "fap/viseme.h"
 
@@ -22,6 +23,9 @@ constexpr std::size_t kMostStates = 64;  // a frame; the nearest ones
 constexpr double kSpeedWeight = 2;       // of a jump against an error that stays
 constexpr double kContact = 1e6;         // FAP units squared, for a contact that is not made
 constexpr double kBeside = 0.05;         // seconds: sounds so near are candidates
+// FAP units squared, for a viseme that is shown though the script does not say it, or the reverse:
+// lips that are less round than those of the table are still no N.
+constexpr double kSaid = 3e5;
 
 using Mouth = std::array<double, kMouthFaps.size()>;
 
@@ -83,7 +87,7 @@ bool cheaper(const State& a, const State& b) { return a.cost < b.cost; }
 class VisemePath {
  public:
   VisemePath(const Script& script, const fap::Sequence& clip)
-      : clip_(clip), sounds_(sounds_of(script)) {
+      : clip_(clip), sounds_(sounds_of(script)), said_(script) {
     for (int v = 0; v < fap::kVisemeCount; ++v) {
       shapes_[std::size_t(v)] = mouth_of(fap::viseme_shape(v));
     }
@@ -150,13 +154,14 @@ class VisemePath {
   std::vector<State> states(std::size_t frame) {
     Mouth wanted = mouth_of(clip_.frames[frame]);
     for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] -= rest_[i];
-    const std::vector<int> visemes =
-        candidates(clip_.rate.seconds(double(clip_.frames[frame].number)));
+    const double time = clip_.rate.seconds(double(clip_.frames[frame].number));
+    const std::vector<int> visemes = candidates(time);
+    const fap::VisemeWeights said = said_.at(time);
     std::vector<State> all;
     for (std::size_t a = 0; a < visemes.size(); ++a) {
       for (std::size_t b = a + 1; b < visemes.size(); ++b) {
         for (int blend = 0; blend <= kFullBlend; blend += kBlendStep) {
-          all.push_back(make(visemes[a], visemes[b], blend, wanted, contact_[frame]));
+          all.push_back(make(visemes[a], visemes[b], blend, wanted, said, contact_[frame]));
         }
       }
     }
@@ -167,7 +172,8 @@ class VisemePath {
     return all;
   }
 
-  State make(int first, int second, int blend, const Mouth& wanted, int contact) const {
+  State make(int first, int second, int blend, const Mouth& wanted, const fap::VisemeWeights& said,
+             int contact) const {
     State state;
     state.step = {std::uint8_t(first), std::uint8_t(second), std::uint8_t(blend), 0};
     const double share = double(blend) / kFullBlend;
@@ -176,12 +182,22 @@ class VisemePath {
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       state.error[i] = share * a[i] + (1 - share) * b[i] - wanted[i];
     }
-    state.cost = square(state.error);
+    state.cost = square(state.error) + kSaid * difference(first, second, share, said);
     if (contact >= 0) {
       const double shown = (first == contact ? share : 0) + (second == contact ? 1 - share : 0);
       state.cost += kContact * (1 - shown);
     }
     return state;
+  }
+
+  // Squares of what each viseme has too much or too little of.
+  static double difference(int first, int second, double share, const fap::VisemeWeights& said) {
+    double sum = 0;
+    for (int v = 0; v < fap::kVisemeCount; ++v) {
+      const double shown = v == first ? share : v == second ? 1 - share : 0;
+      sum += (shown - said[std::size_t(v)]) * (shown - said[std::size_t(v)]);
+    }
+    return sum;
   }
 
   static void reach(const std::vector<State>& before, std::vector<State>& now) {
@@ -222,6 +238,7 @@ class VisemePath {
 
   const fap::Sequence& clip_;
   std::vector<Sound> sounds_;
+  VisemeCurves said_;
   std::array<Mouth, fap::kVisemeCount> shapes_{};
   Mouth rest_{};
   std::vector<int> contact_;

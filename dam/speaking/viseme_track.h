@@ -18,8 +18,9 @@ namespace animeme::dam {
 /// The shapes of players are unknown, so each sound is shown by its own viseme, and the motion of
 /// `clip`, in which the sounds are coarticulated, determines its weight and that of a neighbour:
 /// among the visemes of the sounds in and next to a frame, the two and their blend are chosen whose
-/// measured shapes (fap/viseme.h) best approximate the motion, in position and in speed, over the
-/// whole clip at once (dynamic programming), so that nothing jumps where the pair changes. P, B, M,
+/// measured shapes (fap/viseme.h) best approximate the motion, in position and in speed, and that
+/// differ least from the weights of the sounds (viseme_curves.h), over the whole clip at once
+/// (dynamic programming), so that nothing jumps where the pair changes. P, B, M,
 /// F and V have a frame in which they are shown fully. A pair keeps its order while it lasts. HH
 /// takes the viseme of the next sound. Deterministic; linear in the number of frames.
 std::vector<fap::Viseme> viseme_track(const Script& script, const fap::Sequence& clip);

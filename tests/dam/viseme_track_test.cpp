@@ -92,6 +92,32 @@ TEST_P(AtRate, SoundsAreThoseThatAreSpokenThere) {
   EXPECT_EQ(weight(track.back(), 0), 1);
 }
 
+// Also where the lips of the model are less round than those of the table: no N stands for a UW.
+TEST_P(AtRate, LongSoundsAreShownByTheirOwnVisemes) {
+  const Script script = script_of({{"SIL", 0.2},
+                                   {"S", 0.1},
+                                   {"UW", 0.18},
+                                   {"N", 0.08},
+                                   {"IH", 0.12},
+                                   {"Z", 0.08},
+                                   {"F", 0.1},
+                                   {"UW", 0.2},
+                                   {"L", 0.08},
+                                   {"OW", 0.2},
+                                   {"T", 0.08},
+                                   {"AA", 0.2},
+                                   {"SIL", 0.3}});
+  const auto track = viseme_track(script, clip_of(script, {GetParam(), 1}));
+  for (const Phone& phone : script.phones) {
+    const PhoneInfo* info = find_phone(phone.label);
+    if (info->viseme_start == 0 || phone.duration() < 0.15) continue;
+    const auto at = std::size_t(std::lround((phone.start + phone.end) / 2 * GetParam()));
+    double own = weight(track[at], info->viseme_start);
+    if (info->viseme_end != info->viseme_start) own += weight(track[at], info->viseme_end);
+    EXPECT_GE(own, 0.6) << phone.label << " at " << phone.start;
+  }
+}
+
 // The jaw as it is shown follows the jaw of the clip, and takes no larger steps than a border
 // between two shapes asks for.
 TEST_P(AtRate, TheMotionIsFollowedWithoutJumps) {
