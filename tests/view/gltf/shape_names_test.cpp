@@ -29,6 +29,43 @@ std::string arkit_of(std::string_view name) {
   return text;
 }
 
+TEST(ShapeNames, SidesAndWordsInOtherPlaces) {
+  for (const char* name : {"L_eyeBlink", "left_eye_blink", "eyeLeftBlink", "Left Eye Blink",
+                           "eyeBlinkLft", "eyeBlinkLeft_bs", "eyeBlinkLeft.001", "eyeBlink_L_mesh",
+                           "eyeBlink_L_2", "Head.leftEyeBlink_shape"}) {
+    EXPECT_EQ(arkit_of(name), "eyeBlinkLeft") << name;
+  }
+  EXPECT_EQ(arkit_of("viseme_PP_bs"), arkit_of("viseme_PP"));
+  EXPECT_EQ(arkit_of("mouthLeft_1"), "mouthLeft");
+  EXPECT_EQ(arkit_of("mouthLeftSmile"), "mouthSmileLeft");
+  for (const char* name :
+       {"A_1", "hair_a_2", "E_mesh", "eye_left_right_blink", "left", "mesh_001"}) {
+    EXPECT_EQ(arkit_of(name), "unknown") << name;
+  }
+}
+
+// Whatever a figure is called.
+TEST(ShapeNames, APrefixThatAllHave) {
+  const std::vector<std::string> names = {"Emma_jawOpen", "Emma_mouthClose", "Emma_eyeBlink_L",
+                                          "Emma_hairLong"};
+  EXPECT_EQ(common_prefix(names), "Emma_");
+  EXPECT_EQ(common_prefix({"My_Emma_jawOpen", "My_Emma_mouthClose", "My_Emma_eyeBlink_L"}),
+            "My_Emma_");
+  EXPECT_EQ(meaning_of("Emma_jawOpen", "Emma_")->faps, meaning_of("jawOpen")->faps);
+  EXPECT_FALSE(meaning_of("Emma_jawOpen"));
+  EXPECT_EQ(common_prefix({"jawOpen", "mouthClose", "mouthFunnel"}), "") << "they are known";
+  EXPECT_EQ(common_prefix({"Emma_jawOpen", "Emma_mouthClose"}), "") << "these may be anything";
+  EXPECT_EQ(
+      common_prefix({"jawOpen", "combo_jawOpen", "combo_jawOpen_smile", "combo_a_b", "combo_b_c",
+                     "combo_mouthClose", "combo_c", "combo_mouthFunnel", "combo_d"}),
+      "")
+      << "most are none";
+  std::vector<std::string> notes;
+  const auto shapes = choose_shapes(names, MouthShapes::automatic, notes);
+  EXPECT_EQ(shapes.size(), 3u);
+  EXPECT_THAT(unknown_names(names), ElementsAre("Emma_hairLong"));
+}
+
 TEST(ShapeNames, ArkitInAnySpelling) {
   for (const char* name :
        {"eyeBlinkLeft", "EyeBlinkLeft", "eyeBlink_L", "eye_blink_left", "Eye_Blink_L",

@@ -168,10 +168,11 @@ class FolderReader {
     if (auto read = read_rest(*rest); !read) return read.error();
     ShapeRules rules;
     std::vector<std::string> unknown;
+    const std::string prefix = common_prefix(names_of(*files));
     for (const ObjPath& file : *files) {
       const ShapeRule* const rule = find_rule(options_.rules, file.name);
       if (rule != nullptr && rule->meaning == "-") continue;
-      if (rule == nullptr && !meaning_of(file.name)) {
+      if (rule == nullptr && !meaning_of(file.name, prefix)) {
         unknown.push_back(file.name);
         continue;
       }
@@ -179,7 +180,8 @@ class FolderReader {
       if (!moves) return moves.error();
       if (!*moves) continue;
       if (rule != nullptr) rules.push_back({file.name, rule->meaning});
-      if (const auto meaning = meaning_of(rule != nullptr ? rule->meaning : file.name)) {
+      if (const auto meaning =
+              rule != nullptr ? meaning_of(rule->meaning) : meaning_of(file.name, prefix)) {
         for (const ArkitPart& part : meaning->parts) present_.insert(part.channel);
       }
     }

@@ -22,11 +22,12 @@ bool is_given(const ShapeMeaning& meaning) { return meaning.house == kGiven; }
 
 // nullopt: unknown. A rule may say that a name means nothing; then it is `at_rest`.
 std::optional<ShapeMeaning> meaning_by(const ShapeRules& rules, const std::string& name,
-                                       bool& at_rest) {
+                                       std::string_view prefix, bool& at_rest) {
   const ShapeRule* const rule = find_rule(rules, name);
   at_rest = rule != nullptr && rule->meaning == "-";
   if (at_rest) return std::nullopt;
-  std::optional<ShapeMeaning> meaning = meaning_of(rule != nullptr ? rule->meaning : name);
+  std::optional<ShapeMeaning> meaning =
+      rule != nullptr ? meaning_of(rule->meaning) : meaning_of(name, prefix);
   if (meaning && rule != nullptr) meaning->house = kGiven;
   return meaning;
 }
@@ -125,10 +126,11 @@ std::map<std::string, std::size_t> sizes_of_houses(
 std::vector<ChosenShape> known_shapes(const std::vector<std::string>& names,
                                       const ShapeRules& rules, std::vector<std::string>& unknown,
                                       std::vector<std::string>& doubled) {
+  const std::string prefix = common_prefix(names);
   std::vector<std::optional<ShapeMeaning>> meanings;
   for (const std::string& name : names) {
     bool at_rest = false;
-    meanings.push_back(meaning_by(rules, name, at_rest));
+    meanings.push_back(meaning_by(rules, name, prefix, at_rest));
     if (!meanings.back() && !at_rest) unknown.push_back(name);
   }
   std::map<std::string, std::size_t> sizes = sizes_of_houses(meanings);
@@ -199,10 +201,11 @@ void drop_doubles(std::vector<ChosenShape>& shapes, std::vector<std::string>& un
 
 std::vector<std::string> unknown_names(const std::vector<std::string>& names,
                                        const ShapeRules& rules) {
+  const std::string prefix = common_prefix(names);
   std::vector<std::string> unknown;
   for (const std::string& name : names) {
     bool at_rest = false;
-    if (!meaning_by(rules, name, at_rest) && !at_rest) unknown.push_back(name);
+    if (!meaning_by(rules, name, prefix, at_rest) && !at_rest) unknown.push_back(name);
   }
   return unknown;
 }

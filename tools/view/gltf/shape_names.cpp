@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <set>
 #include <span>
 
 #include "fap/arkit.h"
@@ -251,50 +253,116 @@ fap::Frame face_of_fap(int number) {
   return face;
 }
 
+std::optional<ShapeMeaning> meaning_of_words(const std::vector<std::string>& words) {
+  const std::string key = joined(words);
+  ShapeMeaning meaning;
+  meaning.set = ShapeSet::arkit;
+  meaning.parts = arkit_parts(key);
+  if (meaning.parts.empty()) {
+    meaning.set = ShapeSet::other;
+    meaning.parts = other_parts(key);
+  }
+  if (meaning.parts.empty()) {
+    meaning.set = ShapeSet::viseme;
+    meaning.viseme = viseme_of(words);
+  }
+  if (meaning.parts.empty() && meaning.viseme < 0) {
+    if (const HouseName* known = find_house_name(key)) {
+      meaning.set = known->viseme >= 0 ? ShapeSet::viseme : ShapeSet::arkit;
+      meaning.viseme = known->viseme;
+      meaning.parts = known->parts;
+      meaning.house = known->house;
+    }
+  }
+  if (meaning.parts.empty() && meaning.viseme < 0) {
+    meaning.set = ShapeSet::other;
+    meaning.mood = mood_of(key);
+    meaning.fap = meaning.mood == 0 ? fap_of(key) : 0;
+    if (meaning.fap != 0) {
+      meaning.house = "faps";
+      meaning.faps = face_of_fap(meaning.fap);
+      return meaning;
+    }
+    if (meaning.mood == 0) return std::nullopt;
+    meaning.faps = meaning.mood == kCalmSmile ? faps_of(other_parts("smile"))
+                                              : head::expression_shape(meaning.mood);
+    return meaning;
+  }
+  meaning.faps = meaning.viseme >= 0 ? head::viseme_shape(meaning.viseme) : faps_of(meaning.parts);
+  return meaning;
+}
+
+bool is_suffix(const std::string& word) {
+  constexpr std::string_view kKnown =
+      " bs blendshape shape mesh geo morph target weight value ctrl key ";
+  return kKnown.find(" " + word + " ") != std::string_view::npos ||
+         word.find_first_not_of("0123456789") == std::string::npos;
+}
+
+// The words with the side at the end and without what programs put behind the name proper:
+// "L_eyeBlink", "eyeLeftBlink_mesh" and "eyeBlinkLeft.001" are "eye blink left".
+std::vector<std::string> in_usual_order(std::vector<std::string> words) {
+  while (words.size() > 1 && is_suffix(words.back())) words.pop_back();
+  const auto is_side = [](const std::string& word) { return word == "left" || word == "right"; };
+  if (std::count_if(words.begin(), words.end(), is_side) == 1) {
+    const auto side = std::find_if(words.begin(), words.end(), is_side);
+    std::rotate(side, side + 1, words.end());
+  }
+  return words;
+}
+
 }  // namespace
 
 std::optional<ShapeMeaning> meaning_of(std::string_view name) {
+  constexpr std::size_t kShortest = 4;  // letters: fewer may be anything
   if (name.size() > 200) return std::nullopt;
-  for (const std::vector<std::string>& words : readings_of(name)) {
-    const std::string key = joined(words);
-    ShapeMeaning meaning;
-    meaning.set = ShapeSet::arkit;
-    meaning.parts = arkit_parts(key);
-    if (meaning.parts.empty()) {
-      meaning.set = ShapeSet::other;
-      meaning.parts = other_parts(key);
-    }
-    if (meaning.parts.empty()) {
-      meaning.set = ShapeSet::viseme;
-      meaning.viseme = viseme_of(words);
-    }
-    if (meaning.parts.empty() && meaning.viseme < 0) {
-      if (const HouseName* known = find_house_name(key)) {
-        meaning.set = known->viseme >= 0 ? ShapeSet::viseme : ShapeSet::arkit;
-        meaning.viseme = known->viseme;
-        meaning.parts = known->parts;
-        meaning.house = known->house;
-      }
-    }
-    if (meaning.parts.empty() && meaning.viseme < 0) {
-      meaning.set = ShapeSet::other;
-      meaning.mood = mood_of(key);
-      meaning.fap = meaning.mood == 0 ? fap_of(key) : 0;
-      if (meaning.fap != 0) {
-        meaning.house = "faps";
-        meaning.faps = face_of_fap(meaning.fap);
-        return meaning;
-      }
-      if (meaning.mood == 0) continue;
-      meaning.faps = meaning.mood == kCalmSmile ? faps_of(other_parts("smile"))
-                                                : head::expression_shape(meaning.mood);
-      return meaning;
-    }
-    meaning.faps =
-        meaning.viseme >= 0 ? head::viseme_shape(meaning.viseme) : faps_of(meaning.parts);
-    return meaning;
+  const auto readings = readings_of(name);
+  for (const std::vector<std::string>& words : readings) {
+    if (auto meaning = meaning_of_words(words)) return meaning;
+  }
+  for (const std::vector<std::string>& words : readings) {
+    const std::vector<std::string> usual = in_usual_order(words);
+    if (usual == words || joined(usual).size() < kShortest) continue;
+    auto meaning = meaning_of_words(usual);
+    if (meaning && meaning->mood == 0 && meaning->fap == 0) return meaning;
   }
   return std::nullopt;
+}
+
+std::optional<ShapeMeaning> meaning_of(std::string_view name, std::string_view prefix) {
+  auto meaning = meaning_of(name);
+  if (meaning || prefix.empty() || !name.starts_with(prefix)) return meaning;
+  return meaning_of(name.substr(prefix.size()));
+}
+
+std::string common_prefix(const std::vector<std::string>& names) {
+  constexpr std::size_t kFewest = 3;      // known names behind it
+  constexpr std::size_t kMostPlaces = 8;  // where a prefix may end
+  std::map<std::string, std::set<std::string>> known;
+  std::map<std::string, std::size_t> unknown;
+  for (const std::string& name : names) {
+    if (name.size() > 200 || meaning_of(name)) continue;
+    std::size_t places = 0;
+    for (std::size_t i = 0; i + 1 < name.size() && places < kMostPlaces; ++i) {
+      if (std::string_view("_-. ").find(name[i]) == std::string_view::npos) continue;
+      ++places;
+      const std::string prefix = name.substr(0, i + 1), rest = name.substr(i + 1);
+      const auto meaning = meaning_of(rest);
+      if (meaning && (meaning->set != ShapeSet::other || !meaning->parts.empty())) {
+        known[prefix].insert(rest);
+      } else {
+        ++unknown[prefix];
+      }
+    }
+  }
+  std::string best;
+  std::size_t most = kFewest - 1;
+  for (const auto& [prefix, rests] : known) {
+    if (rests.size() <= most || rests.size() < unknown[prefix]) continue;
+    most = rests.size();
+    best = prefix;
+  }
+  return best;
 }
 
 }  // namespace animeme::gltf

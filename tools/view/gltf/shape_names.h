@@ -55,8 +55,17 @@ struct ShapeMeaning {
 /// Autodesk's Character Generator (VALID) and MakeHuman: detail/house_names.h. FAPs by name or
 /// number
 /// ("open_jaw", "FAP3", "fap_03_open_jaw"), but those of the head's turns. What stands before
-/// the name proper may be any words that end in ".", ":", "|" or "__".
+/// the name proper may be any words that end in ".", ":", "|" or "__". Names that are known no
+/// other way may have their side at another place ("L_eyeBlink", "eyeLeftBlink"), and words such as
+/// "_bs", "_mesh" or ".001" behind them.
 std::optional<ShapeMeaning> meaning_of(std::string_view name);
+
+/// The same; a name that is not known and begins with `prefix` means what follows it.
+std::optional<ShapeMeaning> meaning_of(std::string_view name, std::string_view prefix);
+
+/// What stands before at least three names that would be known without it, and not before more that
+/// would not: "Emma_" of "Emma_jawOpen", "Emma_mouthClose" ...; empty: nothing does.
+std::string common_prefix(const std::vector<std::string>& names);
 
 /// A shape that a head uses.
 struct ChosenShape {

@@ -32,8 +32,8 @@ std::vector<std::string> words_of(std::string_view name) {
     inside = part;
   }
   for (std::string& word : words) {
-    if (word == "l") word = "left";
-    if (word == "r") word = "right";
+    if (word == "l" || word == "lft") word = "left";
+    if (word == "r" || word == "rgt") word = "right";
   }
   return words;
 }
