@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kFadeIn = 0.6, kFadeOut = 0.9;  // seconds, of head and brows
 constexpr double kOneUtterance = 0.8;            // seconds of pause inside speech
-constexpr double kSamePhrase = 0.2, kLongPause = 0.35;
+constexpr double kSamePhrase = 0.2, kPauseToRest = 0.35;
 constexpr double kBeforeSpeech = 0.15;
 // Lids meet at 1024 IRISD units together; a blink shares them as ARKit's eyeBlink does.
 constexpr double kUpperLid = 995, kLowerLid = 29;
@@ -201,7 +201,7 @@ void Behaviour::Impl::expect(const std::vector<SpeechPhrase>& phrases, double st
       begin = end;
     } else if (i + 1 < phrases.size()) {
       const double next = start + phrases[i + 1].start;
-      if (next - end >= kLongPause) gaze.expect_pause(end, next, now());
+      if (next - end >= kPauseToRest) gaze.expect_pause(end, next, now());
     }
   }
 }

@@ -17,7 +17,7 @@ Error no_target(std::string_view text) {
                                       "in degrees (20,-5: left and down), or X,Y,Z in metres");
 }
 
-std::optional<double> number_of(std::string_view text) {
+std::optional<double> look_number(std::string_view text) {
   while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
   while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
   if (text.starts_with('+')) text.remove_prefix(1);
@@ -52,7 +52,7 @@ Result<Look> parse_look(std::string_view text) {
   std::size_t count = 0;
   for (std::string_view rest = text;; ++count) {
     const std::size_t comma = rest.find(',');
-    const std::optional<double> value = number_of(rest.substr(0, comma));
+    const std::optional<double> value = look_number(rest.substr(0, comma));
     if (!value || count >= values.size()) return no_target(text);
     values[count] = *value;
     if (comma == std::string_view::npos) break;

@@ -6,7 +6,7 @@
 namespace animeme::gltf {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x46546C67;      // "glTF"
+constexpr std::uint32_t kGlbMagic = 0x46546C67;   // "glTF"
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A;  // "JSON"
 constexpr std::uint32_t kBinChunk = 0x004E4942;   // "BIN"
 constexpr std::size_t kHeader = 12;
@@ -18,7 +18,7 @@ std::uint32_t word(std::span<const std::uint8_t> bytes, std::size_t at) {
 }
 
 bool is_glb(std::span<const std::uint8_t> bytes) {
-  return bytes.size() >= 4 && word(bytes, 0) == kMagic;
+  return bytes.size() >= 4 && word(bytes, 0) == kGlbMagic;
 }
 
 // The bytes that there are, and how many there should be.
@@ -87,7 +87,7 @@ Result<std::vector<std::uint8_t>> glb_front(std::string_view json, std::uint64_t
   const auto put = [&](std::uint64_t value) {
     for (int byte = 0; byte < 4; ++byte) front.push_back(std::uint8_t(value >> (8 * byte)));
   };
-  put(kMagic);
+  put(kGlbMagic);
   put(2);
   put(total);
   put(text);

@@ -15,32 +15,33 @@ constexpr std::array<std::string_view, 2> kMeshopt = {"EXT_meshopt_compression",
 
 // Those that change what is read here, which is done, and those that change light or pictures
 // alone, which are not looked at.
-constexpr std::array<std::string_view, 26> kKnown = {"KHR_mesh_quantization",
-                                                     "KHR_texture_transform",
-                                                     "KHR_materials_unlit",
-                                                     "KHR_materials_pbrSpecularGlossiness",
-                                                     "KHR_materials_specular",
-                                                     "KHR_materials_ior",
-                                                     "KHR_materials_clearcoat",
-                                                     "KHR_materials_sheen",
-                                                     "KHR_materials_transmission",
-                                                     "KHR_materials_volume",
-                                                     "KHR_materials_iridescence",
-                                                     "KHR_materials_anisotropy",
-                                                     "KHR_materials_dispersion",
-                                                     "KHR_materials_emissive_strength",
-                                                     "KHR_materials_variants",
-                                                     "KHR_lights_punctual",
-                                                     "KHR_texture_basisu",
-                                                     "EXT_texture_webp",
-                                                     "EXT_texture_avif",
-                                                     "MSFT_texture_dds",
-                                                     "VRM",
-                                                     "VRMC_vrm",
-                                                     "VRMC_materials_mtoon",
-                                                     "VRMC_springBone",
-                                                     "KHR_node_visibility",
-                                                     "KHR_animation_pointer"};
+constexpr std::array<std::string_view, 26> kKnownExtensions = {
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+    "KHR_materials_unlit",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_specular",
+    "KHR_materials_ior",
+    "KHR_materials_clearcoat",
+    "KHR_materials_sheen",
+    "KHR_materials_transmission",
+    "KHR_materials_volume",
+    "KHR_materials_iridescence",
+    "KHR_materials_anisotropy",
+    "KHR_materials_dispersion",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_variants",
+    "KHR_lights_punctual",
+    "KHR_texture_basisu",
+    "EXT_texture_webp",
+    "EXT_texture_avif",
+    "MSFT_texture_dds",
+    "VRM",
+    "VRMC_vrm",
+    "VRMC_materials_mtoon",
+    "VRMC_springBone",
+    "KHR_node_visibility",
+    "KHR_animation_pointer"};
 
 bool is_meshopt(std::string_view name) {
   return std::find(kMeshopt.begin(), kMeshopt.end(), name) != kMeshopt.end();
@@ -68,7 +69,8 @@ Result<void> check_extensions(const Json& root) {
     const std::string name = text_or(entry);
     if (name == kDraco ? can_unpack_draco() : is_meshopt(name) && can_unpack_meshopt()) continue;
     if (name == kDraco || is_meshopt(name)) return compressed_error(name);
-    if (std::find(kKnown.begin(), kKnown.end(), name) == kKnown.end()) {
+    if (std::find(kKnownExtensions.begin(), kKnownExtensions.end(), name) ==
+        kKnownExtensions.end()) {
       return make_error(Code::unsupported, "the file requires the glTF extension \"" + name +
                                                "\", which is not supported: export it without");
     }

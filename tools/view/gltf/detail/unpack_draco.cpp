@@ -21,8 +21,8 @@ class DracoHead {
   explicit DracoHead(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
 
   bool read() {
-    constexpr std::string_view kMagic = "DRACO";
-    for (const char c : kMagic) {
+    constexpr std::string_view kDracoMagic = "DRACO";
+    for (const char c : kDracoMagic) {
       if (byte() != std::uint8_t(c)) return false;
     }
     const int major = byte(), minor = byte();
