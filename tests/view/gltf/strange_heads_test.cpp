@@ -2,8 +2,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstring>
+#include <filesystem>
+
 #include "fap/arkit.h"
 #include "fap/head/rig.h"
+#include "tests/support/files.h"
+#include "tests/support/shared.h"
 #include "tests/view/gltf/actor_file.h"
 #include "tools/view/gltf/read_head.h"
 #include "tools/view/gltf/shape_names.h"
@@ -358,6 +363,38 @@ TEST(StrangeHeads, MirroredFilesLookForwards) {
     side = std::max(side, from.y - blink.positions[0][v].y);
   }
   EXPECT_GT(moved[1], 5 * moved[0]);
+}
+
+// Whole bodies, too, whose skin lies as much before the face as behind it.
+TEST(StrangeHeads, MirroredBodiesLookForwards) {
+  const auto folder = test::shared_dir() / "data" / "avatars";
+  if (test::shared_dir().empty() || !std::filesystem::exists(folder)) {
+    GTEST_SKIP() << "no reference data";
+  }
+  for (const char* name : {"arkit_and_visemes.glb", "brunette-t.glb", "vroid.glb"}) {
+    const auto bytes = test::read_bytes(folder / name);
+    ASSERT_GT(bytes.size(), 20u);
+    std::uint32_t size = 0;
+    std::memcpy(&size, &bytes[12], 4);
+    auto root = json::parse(bytes.begin() + 20, bytes.begin() + 20 + size);
+    auto& roots = root["scenes"][root.value("scene", std::size_t(0))]["nodes"];
+    root["nodes"].push_back({{"scale", {-1, 1, 1}}, {"children", roots}});
+    roots = json::array({root["nodes"].size() - 1});
+    std::string text = root.dump();
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    std::vector<std::uint8_t> file(bytes.begin(), bytes.begin() + 20);
+    const auto put = [&](std::size_t at, std::size_t value) {
+      const auto word = std::uint32_t(value);
+      std::memcpy(&file[at], &word, 4);
+    };
+    put(8, bytes.size() - size + text.size());
+    put(12, text.size());
+    file.insert(file.end(), text.begin(), text.end());
+    file.insert(file.end(), bytes.begin() + 20 + size, bytes.end());
+    const auto mirrored = loaded(file);
+    ASSERT_TRUE(mirrored) << name;
+    EXPECT_THAT(mirrored->notes, Not(Contains(HasSubstr("does not look")))) << name;
+  }
 }
 
 // VRM 0 looks along -Z, as it should.
