@@ -25,7 +25,8 @@ constexpr double kLargeShift = 12, kWithShift = 0.6, kSoon = 1.5;  // degrees; s
 Blinks::Blinks(std::uint64_t seed, double liveliness, double end, double frame)
     : draw_(mixed(seed, 21)), liveliness_(liveliness), end_(end), frame_(frame) {
   // As if one had looked at it by chance in the middle of an interval.
-  clock_ = next_ = std::max(0.4, interval(mode_) * draw_.between(0.1, 1));
+  const double share = draw_.between(0.1, 1);  // apart: the order of draws decides their values
+  clock_ = next_ = std::max(0.4, interval(mode_) * share);
   blink_.start = -10;
 }
 
@@ -88,7 +89,10 @@ void Blinks::advance(double now, double until, Mode mode) {
   if (mode != mode_) {
     mode_ = mode;
     // People who begin to speak blink more, at once: the rest of the interval is drawn again.
-    if (next_ > now + 1) clock_ = next_ = now + 0.5 + interval(mode) * draw_.between(0, 1);
+    if (next_ > now + 1) {
+      const double share = draw_.between(0, 1);
+      clock_ = next_ = now + 0.5 + interval(mode) * share;
+    }
     attract();
   }
   next_ = std::max(next_, blink_.end() + kBetween);

@@ -282,7 +282,8 @@ std::optional<GazeShift> Gaze::advance(double now, double until, Mode mode) {
     // What the other mode had planned no longer counts.
     if (mode == Mode::thinking) held_until_ = now;
     if (!averted_ && now >= held_until_) {
-      mode_end_ = now + (away_ ? away_seconds(mode) : at_seconds(mode) * draw_.between(0.2, 1));
+      const double share = away_ ? 1 : draw_.between(0.2, 1);
+      mode_end_ = now + (away_ ? away_seconds(mode) : at_seconds(mode) * share);
       if (mode == Mode::thinking && !away_) mode_end_ = now + draw_.between(0.05, 0.3);
     }
   }

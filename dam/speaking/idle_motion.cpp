@@ -139,8 +139,10 @@ std::vector<LivingShape> living_shapes(const StillParts& still) {
     shapes.push_back({how, number_of_shape(name + "Right"), value, 1});
   };
   if (!still.blinks) {
-    add_sides(larger, "eyeBlink", [](const FaceMoment& m, std::size_t) { return m.blink; });
-    add_sides(less, "eyeWide", [](const FaceMoment& m, std::size_t) { return m.blink; });
+    add_sides(larger, "eyeBlink",
+              [](const FaceMoment& m, std::size_t) { return std::min(m.blink, 1.0); });
+    add_sides(less, "eyeWide",
+              [](const FaceMoment& m, std::size_t) { return std::min(m.blink, 1.0); });
   }
   if (!still.gaze) {
     add_sides(unless_known, "eyeLookIn", look_in);

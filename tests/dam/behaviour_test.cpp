@@ -36,7 +36,7 @@ void expect_smooth(const FaceMoment& a, const FaceMoment& b, double frame, int a
     near(a.inner_brow[side], b.inner_brow[side], 3200, "inner brow");
     near(a.middle_brow[side], b.middle_brow[side], 3200, "brow");
     near(a.outer_brow[side], b.outer_brow[side], 3200, "outer brow");
-    near(a.squeeze[side], b.squeeze[side], 900, "squeeze");
+    near(a.squeeze[side], b.squeeze[side], 1100, "squeeze");
     near(a.eye_yaw[side] * kDegrees, b.eye_yaw[side] * kDegrees, 700, "eye");
     near(a.eye_pitch[side] * kDegrees, b.eye_pitch[side] * kDegrees, 700, "eye");
   }

@@ -24,7 +24,7 @@ void* realloc(void* block, size_t size) {
   return __libc_realloc(block, size);
 }
 
-enum { RATE = 25, SECONDS = 40, WARM = 1 };
+enum { RATE = 25, SECONDS = 40, WARM = 3 }; /* models are made when first used */
 
 static animeme_error error;
 static int failures = 0;

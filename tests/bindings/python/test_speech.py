@@ -48,9 +48,12 @@ def test_phones_become_a_face(model, phones):
 
 @pytest.mark.skipif(not PROGRAM.exists(), reason="the program is not built")
 def test_the_face_is_that_of_the_program(model, phones, tmp_path):
-    command = [PROGRAM, "speak", "--script", SAMPLE / "phonemes/prac8p.tsv", "-o", tmp_path / "a.csv", "--idle-motion"]
+    command = [PROGRAM, "speak", "--script", SAMPLE / "phonemes/prac8p.tsv", "-o", tmp_path / "a.csv", "--idle-motion",
+               "--no-tongue"]
     subprocess.run(command, check=True, capture_output=True)
-    assert animeme.load(tmp_path / "a.csv") == model.speak(phones).clip
+    theirs, ours = animeme.load(tmp_path / "a.csv"), model.speak(phones).clip
+    # Curves are written with so many digits that a value halfway may be rounded the other way.
+    assert np.abs(theirs.values - ours.values).max() <= 1 and (theirs.mask == ours.mask).all()
 
 
 def test_text_becomes_sound_and_face(spoken, tmp_path):
@@ -72,8 +75,10 @@ def test_a_recording_and_its_text(model, spoken, tmp_path):
         file.setsampwidth(2)
         file.setframerate(spoken.sample_rate)
         file.writeframes((spoken.audio * 32767).astype("<i2").tobytes())
-    beside = model.speak(spoken.phones, audio=tmp_path / "voice.wav")
-    assert np.abs(beside.audio - spoken.audio).max() < 1e-3 and beside.clip == spoken.clip
+    # Idle motion follows the voice, and so its samples to the last bit.
+    still = model.speak("Please tell me a story about the sea", idle_motion=False)
+    beside = model.speak(still.phones, audio=tmp_path / "voice.wav", idle_motion=False)
+    assert np.abs(beside.audio - spoken.audio).max() < 1e-3 and beside.clip == still.clip
     try:
         aligned = model.speak(audio=tmp_path / "voice.wav", transcript="Please tell me a story about the sea")
     except animeme.Error as error:

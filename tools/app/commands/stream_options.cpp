@@ -156,7 +156,7 @@ void add_options(OptionTable& cli, StreamOptions& options) {
       "--look --still --seed --no-tongue --mtu --repeat --repeat-after "
       "--bundle --max-clients --max-per-address --allow-origin --host-name --delay --intra-seconds "
       "--points --shape-name --shape-names --gain --copy --quant --rms --kbps --small "
-      "--default-ranges "
+      "--default-ranges --encoder-delay --stats "
       "--sharpness "
       "--articulate "
       "--audio-codec --audio-bitrate");

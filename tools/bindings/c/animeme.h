@@ -43,7 +43,7 @@
 ///
 /// **Memory** comes from malloc and the C++ library. Decoder, encoder (with or without start codes
 /// before all planes), receiver and ARKit handles do not allocate per plane once they have run for
-/// a second, except for wider ranges and new FAPs.
+/// three seconds, except for wider ranges and new FAPs.
 #pragma once
 
 #include <stddef.h>
