@@ -232,11 +232,8 @@ ChildJob job_for(const SuiteCase& one, const RunFiles& files, const RunOptions& 
   job.out = files.out;
   job.err = files.err;
   if (options.command) {
-    // A folder whose name begins with - would be an option.
-    const auto file = [](const std::string& path) {
-      return path.starts_with("-") ? "./" + path : path;
-    };
-    const std::string in = file(files.stream), out = file(files.face), bap = file(files.body);
+    const std::string in = path_argument(files.stream), out = path_argument(files.face),
+                      bap = path_argument(files.body);
     auto arguments = fill_in(*options.command, {{{"in", in}, {"out", out}, {"bap", bap}}});
     if (arguments) job.arguments = std::move(*arguments);
   } else {

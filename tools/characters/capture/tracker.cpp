@@ -97,8 +97,7 @@ Result<std::string> Tracker::run(const std::string& video, double seconds,
   if (!scratch) return scratch.error();
   const std::string out = (*scratch)->file("track.csv");
   ChildJob job;
-  // A name that begins with - would be an option.
-  const std::string in = video.starts_with("-") ? "./" + video : video;
+  const std::string in = path_argument(video);
   Result<std::vector<std::string>> arguments = fill_in(command_, {{{"in", in}, {"out", out}}});
   if (!arguments) return arguments.error();
   job.arguments = std::move(*arguments);

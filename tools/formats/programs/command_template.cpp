@@ -87,6 +87,8 @@ bool CommandTemplate::names(std::string_view place) const {
                      [&](const std::string& one) { return one.find(braced) != std::string::npos; });
 }
 
+std::string path_argument(std::string path) { return path.starts_with('-') ? "./" + path : path; }
+
 Result<std::vector<std::string>> fill_in(const CommandTemplate& command,
                                          std::span<const Place> places) {
   std::vector<std::string> result;

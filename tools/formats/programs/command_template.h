@@ -35,6 +35,9 @@ Result<std::vector<std::string>> split_arguments(std::string_view line);
 /// or a program that is not found: that file if its name has a /, else in PATH).
 Result<CommandTemplate> parse_command(std::string_view line);
 
+/// A path as the value of a placeholder: one that begins with "-" gets "./" before it.
+std::string path_argument(std::string path);
+
 /// The arguments with placeholders replaced; other braces are unchanged. A text that begins with
 /// "-" would be an option of the program, which the author of the text would choose, not that of
 /// the command: it is refused where a placeholder begins an argument, unless an argument "--" is
