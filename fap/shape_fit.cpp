@@ -24,10 +24,12 @@ std::vector<std::vector<internal::ShapeWeight>> weights_of(std::span<const Frame
   return weights;
 }
 
-internal::Lips lips_of(const LipMeasures& measures) {
+// Shapes that were added after the measuring count as those that leave the lips where they are.
+internal::Lips lips_of(const LipMeasures& measures, std::size_t shapes) {
   internal::Lips lips{kLipsCount, {}, {}};
   std::copy(measures.at_rest.begin(), measures.at_rest.end(), lips.at_rest.begin());
   for (const LipDistances& c : measures.closing) lips.closing.push_back({c[0], c[1], c[2]});
+  if (!lips.closing.empty()) lips.closing.resize(shapes);
   return lips;
 }
 
@@ -42,7 +44,7 @@ ShapeFitter::ShapeFitter(std::span<const Frame> shapes, const LipMeasures& lips,
     : impl_(new Impl{{weights_of(shapes),
                       arkit.size() == shapes.size() ? arkit : std::span<const std::optional<int>>(),
                       {ridge, 0, arkit.size() == shapes.size() ? 1.0 : 0.0},
-                      lips_of(lips)}}) {}
+                      lips_of(lips, shapes.size())}}) {}
 ShapeFitter::ShapeFitter(ShapeFitter&&) noexcept = default;
 ShapeFitter& ShapeFitter::operator=(ShapeFitter&&) noexcept = default;
 ShapeFitter::~ShapeFitter() = default;

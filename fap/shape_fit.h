@@ -34,12 +34,12 @@ struct LipMeasures {
 class ShapeFitter {
  public:
   /// `shapes`: the low-level FAPs of each shape at weight 1; FAPs outside the mask are 0. `lips`:
-  /// with distances for all shapes, or for none; FAPs approximate lip distances only roughly, which
-  /// shows in a mouth that should be closed (open lips are left to the FAPs). `ridge`: penalty on
-  /// the use of a shape, relative to its effect on the face, 0..1; it keeps shapes from cancelling
-  /// each other. `arkit`: the channel (find_arkit()) of each ARKit shape, kWholeFace for moods,
-  /// nullopt for others; if given, few shapes are used, and none against each other (see
-  /// ArkitFitOptions::sparsity).
+  /// with distances for all shapes, or for none (shapes behind the last distance count as 0); FAPs
+  /// approximate lip distances only roughly, which shows in a mouth that should be closed (open
+  /// lips are left to the FAPs). `ridge`: penalty on the use of a shape, relative to its effect on
+  /// the face, 0..1; it keeps shapes from cancelling each other. `arkit`: the channel
+  /// (find_arkit()) of each ARKit shape, kWholeFace for moods, nullopt for others; if given, few
+  /// shapes are used, and none against each other (see ArkitFitOptions::sparsity).
   explicit ShapeFitter(std::span<const Frame> shapes, const LipMeasures& lips = {},
                        double ridge = 0.001, std::span<const std::optional<int>> arkit = {});
   ShapeFitter(ShapeFitter&&) noexcept;  ///< movable

@@ -91,6 +91,17 @@ TEST(ShapeFitter, WhatSaysNothingIsNotUsed) {
   EXPECT_EQ(more.fit(shut), without);
 }
 
+// Shapes that were added after the lips were measured count as shapes that leave them alone.
+TEST(ShapeFitter, ShapesWithoutADistanceLeaveTheLipsAlone) {
+  LipMeasures shorter = kLips, padded = kLips;
+  shorter.closing.resize(1);
+  padded.closing.assign({kLips.closing[0], {}, {}});
+  ShapeFitter some(kMouth, shorter), all(kMouth, padded), measured(kMouth, kLips);
+  const Frame shut = frame_of({{3, 300}});
+  EXPECT_EQ(some.fit(shut), all.fit(shut));
+  EXPECT_NE(some.fit(shut), measured.fit(shut));
+}
+
 // Lips that are apart in the neutral face meet where a frame presses them; those that meet anyway
 // are left alone.
 TEST(ShapeFitter, PressedLipsMeetIfTheyDoNotYet) {
