@@ -35,6 +35,7 @@ inline constexpr Module kModules[] = {
     {"dam/corpus", "dam/model"},
     {"dam/behaviour", "dam/script dam/maths"},
     {"dam/speaking", "dam/model dam/behaviour"},
+    {"dam/performance", "dam/speaking"},
     // A kind of model knows no other kind. Their list knows all.
     {"dam/kinds/animeme", "dam/corpus dam/speaking"},
     {"dam/kinds/refined", "dam/corpus dam/speaking"},
@@ -63,7 +64,7 @@ inline constexpr Module kModules[] = {
     {"tools/speech/text", "dam/script"},
     {"tools/speech/voice", "dam/behaviour tools/speech/text tools/formats/media"},
     {"tools/speech/talking",
-     "dam/speaking codec/encode tools/speech/voice tools/formats/scripts tools/formats/programs"},
+     "dam/performance codec/encode tools/speech/voice tools/formats/scripts tools/formats/programs"},
     {"tools/view/viewer/rig", "fap/head", false},  // also the page's WebAssembly
     {"tools/view/viewer",
      "dam/script tools/view/render tools/view/viewer/rig tools/formats/common"},

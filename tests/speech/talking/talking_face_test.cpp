@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -243,6 +244,60 @@ TEST_F(Face, MoodsNeverJump) {
     const double speech = 1.4 * quickest(plain, fap);  // of shouting
     EXPECT_LE(quickest(moody, fap), speech + most + 1) << fap;
   }
+}
+
+// A head that looks about and smiles, for two seconds.
+std::shared_ptr<const dam::Performance> performance() {
+  fap::Sequence clip{{25, 1}, {}, ""};
+  for (int i = 0; i < 50; ++i) {
+    fap::Frame frame;
+    frame.number = i;
+    frame.set(12, 150), frame.set(13, 150);
+    frame.set(49, std::int32_t(std::lround(8000 * std::sin(i * 0.12))));
+    frame.set(31, 100 + i);
+    clip.frames.push_back(frame);
+  }
+  return std::make_shared<const dam::Performance>(*dam::Performance::make(clip));
+}
+
+TEST(TalkingFace, SpeaksOverAPerformance) {
+  const dam::Model model = *dam::builtin_model();
+  FaceOptions options;
+  options.idle_motion = true;
+  auto alone = TalkingFace::open(model, options);
+  options.over = performance();
+  auto kept = TalkingFace::open(model, options);
+  ASSERT_TRUE(alone);
+  ASSERT_TRUE(kept);
+  fap::Frame before;
+  for (int i = 0; i < 260; ++i) {
+    if (i == 30) {
+      ASSERT_TRUE(kept->say(sentence()));
+      ASSERT_TRUE(alone->say(sentence()));
+    }
+    const auto frame = kept->next(), other = alone->next();
+    ASSERT_TRUE(frame);
+    ASSERT_TRUE(other);
+    EXPECT_EQ(frame->mask, kept->mask());
+    if (i < 50) {
+      EXPECT_EQ(frame->value[49], std::int32_t(std::lround(8000 * std::sin(i * 0.12))));
+      EXPECT_EQ(frame->value[31], 100 + i);
+    }
+    // Groups that it lacks go on as without it; lips meet where they met.
+    EXPECT_EQ(frame->value[19], other->value[19]);
+    const int gap = -(frame->value[4] + frame->value[5]);
+    const int gap_alone = -(other->value[4] + other->value[5]);
+    if (gap_alone < 30) {
+      EXPECT_LT(gap, 45) << "frame " << i;
+    }
+    // It repeats without a jump.
+    if (i > 0) {
+      EXPECT_LT(std::abs(frame->value[49] - before.value[49]), 1200) << "frame " << i;
+      EXPECT_LT(std::abs(frame->value[31] - before.value[31]), 12) << "frame " << i;
+    }
+    before = *frame;
+  }
+  EXPECT_GT(before.value[12], 60);
 }
 
 }  // namespace talking_face_test

@@ -17,6 +17,7 @@
 #include "tools/app/commands/idle_options.h"
 #include "tools/app/commands/mood_options.h"
 #include "tools/app/commands/motion_options.h"
+#include "tools/app/commands/over_options.h"
 #include "tools/app/commands/preview.h"
 #include "tools/app/commands/spoken_options.h"
 #include "tools/app/commands/text_or_file.h"
@@ -47,7 +48,10 @@ struct SpeakOptions {
   SoundSettings sound;
   dam::SynthesisOptions motion;
   bool no_closure = false;
-  IdleOptions idle;                     // neither on nor off: where it can be had
+  IdleOptions idle;  // neither on nor off: where it can be had
+  OverChoice over;
+  std::shared_ptr<const dam::Performance> performance;  // of --over
+  dam::KeptShares keep;
   std::optional<dam::Prosody> prosody;  // of the voice, for it
   bool exact = false;
   std::string visemes, expressions;  // where FAP 1 and 2 go
@@ -222,13 +226,30 @@ std::vector<RecognisedPhone> heard_phones(const speech::Spoken& spoken) {
   return all;
 }
 
+Json numbers_of(const fap::Mask& faps) {
+  Json list = Json::array();
+  for (std::size_t fap = 1; fap < faps.size(); ++fap)
+    if (faps[fap]) list.push_back(fap);
+  return list;
+}
+
 Json language_json(const voice::SpokenLanguage& part) {
   return {{"start", part.start}, {"end", part.end},   {"language", part.language},
           {"voice", part.voice}, {"text", part.text}, {"by_itself", part.by_itself}};
 }
 
+Json over_json(const dam::OverReport& over) {
+  return {{"end", over.end},
+          {"moments", json_list(over.time.moments(),
+                                [](const dam::BentMoment& one) -> Json {
+                                  return {{"time", one.time}, {"source", one.source}};
+                                })},
+          {"kept", numbers_of(over.kept)},
+          {"filled", numbers_of(over.filled)}};
+}
+
 void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam::Signal& signal,
-            const dam::SynthesisReport& synthesis) {
+            const dam::SynthesisReport& synthesis, const std::optional<dam::OverReport>& over) {
   for (const auto& [label, by] : synthesis.replaced) {
     say_more("the model has no phone " + label + ": it is spoken as " + by);
   }
@@ -257,6 +278,7 @@ void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam
                                    })},
                {"warnings", spoken.warnings}};
   if (options.outputs.size() > 1) json["outputs"] = options.outputs;
+  if (over) json["over"] = over_json(*over);
   if (heard) {
     json["warnings"] = spoken.heard->warnings;
     json["heard"] = json_list(heard_phones(spoken), [](const RecognisedPhone& one) -> Json {
@@ -275,24 +297,35 @@ void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam
   std::printf("%s\n", pretty(json).c_str());
 }
 
-// options.output, of a face that moves by the phones alone.
+// options.output, of a face that moves by the phones alone. `over` receives how a performance lies
+// below it.
 Result<int> write_output(const SpeakOptions& options, dam::Signal signal,
-                         const speech::Spoken& spoken) {
+                         const speech::Spoken& spoken, std::optional<dam::OverReport>& over) {
   // Curves belong to the model's rig, and players of visemes have no brows.
   const bool curves = extension_of(options.output) == ".csv" && !is_arkit_output(options.output);
   const bool plain = curves || options.visemes == "instead";
   // A lossless stream cannot hold a tongue that curls: FAP 47 goes far beyond 1860 units.
   if (options.tongue && !plain && options.stream.quant > 0) dam::add_tongue(signal, spoken.script);
-  if (options.idle.on.value_or(!plain)) {
-    // Without being asked: where the names of a rig are not known, writing will say what it needs.
-    dam::IdleMotionOptions idle = options.idle.motion;
-    if (options.prosody) idle.prosody = &*options.prosody;
-    // Without quantisation, angles end at one degree.
-    if (options.stream.quant == 0) idle.still.gaze = idle.still.head = true;
+  const bool lives = options.idle.on.value_or(!plain);
+  // Without being asked: where the names of a rig are not known, writing will say what it needs.
+  dam::IdleMotionOptions idle = options.idle.motion;
+  if (options.prosody) idle.prosody = &*options.prosody;
+  // Without quantisation, angles end at one degree.
+  if (options.stream.quant == 0) idle.still.gaze = idle.still.head = true;
+  if (options.performance) {
+    dam::OverOptions settings{options.keep, options.over.bend};
+    settings.idle = lives ? std::optional(idle) : std::nullopt;
+    auto put = dam::speak_over(signal, spoken.script, *options.performance, settings);
+    if (!put) return put.error();
+    over = std::move(*put);
+  } else if (lives) {
     auto added = dam::add_idle_motion(signal, spoken.script, idle);
     if (!added && options.idle.on.has_value()) return added.error();
   }
-  const dam::MoodTrack moods(mood_of(options.mood), spoken.moods);
+  // The performance has moods of its own.
+  const bool own_moods = !options.performance || !options.mood.empty();
+  const dam::MoodTrack moods(mood_of(options.mood), own_moods ? std::span(spoken.moods)
+                                                              : std::span<const dam::MoodSpan>());
   if (!curves || !options.mood.empty()) {
     auto added = dam::add_moods(signal, spoken.script, moods);
     if (!added && !options.mood.empty()) return added.error();
@@ -394,6 +427,9 @@ Result<int> run(SpeakOptions& options) {
   Result<dam::Model> model = speech::read_model(options.model);
   if (!model) return model.error();
   if (auto done = read_coded(options); !done) return done.error();
+  if (auto done = read_over(options.over, options.performance, options.keep); !done) {
+    return done.error();
+  }
   ProgressLine progress("listening");
   speech::SpokenOptions source = options.spoken;
   if (options.least && *options.least == 0) source.least_confidence = 0;
@@ -421,12 +457,13 @@ Result<int> run(SpeakOptions& options) {
     return signal.error().in_file(spoken->heard ? options.spoken.audio : options.spoken.script);
   }
   Result<int> written = kOk;
+  std::optional<dam::OverReport> over;
   SpeakOptions one = options;
   if (spoken->audio && options.idle.on.value_or(true))
     one.prosody = voice::measure_prosody(*spoken->audio);
   for (const std::string& output : options.outputs) {
     one.output = output;
-    written = write_output(one, *signal, *spoken);
+    written = write_output(one, *signal, *spoken, over);
     if (!written || *written != kOk) return written;
   }
   // Last, so that a failure leaves no file behind.
@@ -435,7 +472,7 @@ Result<int> run(SpeakOptions& options) {
         spoken->script, spoken->marks, extension_of(options.save_script), doubts_of(*spoken));
     if (auto done = write_file(options.save_script, text); !done) return done.error();
   }
-  report(options, *spoken, *signal, synthesis);
+  report(options, *spoken, *signal, synthesis, over);
   return written;
 }
 
@@ -468,6 +505,7 @@ void add_options(OptionTable& cli, SpeakOptions& options) {
   add_idle_options(cli, options.idle, "default: on, but not for curves of the model (.csv)");
   add_tongue_option(cli, options.tongue);
   add_mood_option(cli, options.mood);
+  add_over_options(cli, options.over, true);
   cli.add(
          "--expressions", options.expressions,
          "Also code moods as FAP 2, for players that support only that: 'instead' of brows, cheeks "
@@ -497,7 +535,7 @@ void add_options(OptionTable& cli, SpeakOptions& options) {
   cli.show_in_help_all(
       "Details of coding and alignment",
       "--rms --kbps --intra-seconds --audio-codec --audio-bitrate --exact --min-confidence "
-      "--no-tongue --visemes --expressions --look --still --seed");
+      "--no-tongue --visemes --expressions --look --still --seed --keep --bend");
 }
 
 }  // namespace

@@ -39,6 +39,9 @@ std::string bad_options(const StreamOptions& options) {
   }
   if (voice && options.idle.on.value_or(false)) return "--idle-motion is for clips and --say";
   if (voice && !options.mood.empty()) return "--mood is for clips and --say";
+  if (!options.over.path.empty() && (voice || !options.input.empty())) {
+    return "--over is for speech that is made: --say, or --text and its like";
+  }
   if (said && !what.spoken.audio.empty()) {
     return "--audio goes with a face, not with --say, whose voice speaks as the lines come";
   }
@@ -237,6 +240,9 @@ Result<int> run(StreamOptions& options) {
   options.program.mood = mood_of(options.mood);
   options.program.idle_motion = options.idle.on.value_or(true);
   options.program.idle = options.idle.motion;
+  if (auto done = read_over(options.over, options.program.over, options.program.keep); !done) {
+    return done.error();
+  }
   if (!options.pcm.empty()) {
     const auto bare = speech::parse_bare_sound(options.pcm);
     if (!bare) return bare.error();

@@ -57,6 +57,7 @@ void add_source_options(OptionTable& cli, StreamOptions& options) {
   add_tongue_option(cli, options.program.motion.tongue);
   add_mood_option(cli, options.mood);
   add_idle_options(cli, options.idle, "default: on, but not with --say-audio");
+  add_over_options(cli, options.over, false);
 }
 
 void add_coding_options(OptionTable& cli, StreamOptions& options) {

@@ -7,6 +7,7 @@
 
 #include "tools/app/commands/face_stream.h"
 #include "tools/app/commands/idle_options.h"
+#include "tools/app/commands/over_options.h"
 #include "tools/app/commands/shown_heads.h"
 #include "tools/live/sessions/address.h"
 #include "tools/live/sessions/program.h"
@@ -28,6 +29,7 @@ struct StreamOptions {
   std::string rate = "25";       ///< --rate
   std::string mood;              ///< --mood
   IdleOptions idle;              ///< --idle-motion and its like
+  OverChoice over;               ///< --over, --keep
   std::string pcm;               ///< --pcm
   std::string events;            ///< --events
   bool no_sound = false;         ///< --no-sound

@@ -59,13 +59,21 @@ Result<Clip> spoken_clip(const ProgramOptions& options, fap::Rate rate, const to
   }
   Result<dam::Signal> signal = speech::move_face(*model, *spoken, settings);
   if (!signal) return signal.error();
-  if (options.idle_motion) {
-    const dam::Prosody prosody =
-        spoken->audio ? voice::measure_prosody(*spoken->audio) : dam::Prosody{};
-    dam::IdleMotionOptions idle = options.idle;
-    idle.prosody = &prosody;
-    // Without quantisation, angles end at one degree.
-    if (options.coding.quant == 0) idle.still.gaze = idle.still.head = true;
+  const dam::Prosody prosody = options.idle_motion && spoken->audio
+                                   ? voice::measure_prosody(*spoken->audio)
+                                   : dam::Prosody{};
+  dam::IdleMotionOptions idle = options.idle;
+  idle.prosody = &prosody;
+  // Without quantisation, angles end at one degree.
+  if (options.coding.quant == 0) idle.still.gaze = idle.still.head = true;
+  if (options.over) {
+    dam::OverOptions over;
+    over.keep = options.keep;
+    over.idle = options.idle_motion ? std::optional(idle) : std::nullopt;
+    auto put = dam::speak_over(*signal, spoken->script, *options.over, over);
+    if (!put) return put.error();
+    if (options.mood.neutral()) spoken->moods.clear();  // the performance has its own
+  } else if (options.idle_motion) {
     auto added = dam::add_idle_motion(*signal, spoken->script, idle);
     if (!added) return added.error();
   }
@@ -101,7 +109,12 @@ Result<void> open_speaker(const ProgramOptions& options, fap::Rate rate, Program
   program.lines = std::move(*lines);
 
   speech::SpeakerOptions settings;
-  settings.face = {synthesis_of(options, rate), options.idle_motion, options.idle, options.mood};
+  settings.face = {synthesis_of(options, rate),
+                   options.idle_motion,
+                   options.idle,
+                   options.mood,
+                   options.over,
+                   options.keep};
   settings.fap_quant = options.coding.quant;
   settings.intra_seconds = options.coding.intra_seconds;
   settings.coding_delay = options.coding_delay;

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "dam/model/model.h"
+#include "dam/performance/over_speech.h"
 #include "dam/speaking/idle_motion.h"
 #include "fap/rate.h"
 #include "tools/formats/media/live/presentation.h"
@@ -36,7 +37,11 @@ struct ProgramOptions {
   bool idle_motion = true;       ///< gaze, blinks, brows and head
   dam::IdleMotionOptions idle;   ///< of the idle motion; without `prosody`
   dam::Mood mood;                ///< of the face
-  bool loop = false;             ///< repeat clips
+  /// A performance that is kept under the speech; null: none. It repeats below a head that speaks
+  /// line by line; below a clip its time is bent (dam/performance/over_speech.h).
+  std::shared_ptr<const dam::Performance> over = nullptr;
+  dam::KeptShares keep = {};                                  ///< what is kept of it
+  bool loop = false;                                          ///< repeat clips
   double duration = std::numeric_limits<double>::infinity();  ///< seconds
 };
 

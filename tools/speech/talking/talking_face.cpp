@@ -189,6 +189,10 @@ Result<TalkingFace> TalkingFace::open(const dam::Model& model, const FaceOptions
     face.find_moving(face.mask_);
     for (const int fap : face.moving_) face.mask_.set(std::size_t(fap));
   }
+  if (options.over) {
+    face.over_.emplace(options.over, options.keep, options.synthesis.rate);
+    face.mask_ |= face.over_->faps();
+  }
   face.mood_ = options.mood;
   face.moods_ = dam::MoodBlend(options.mood);
   return face;
@@ -298,8 +302,9 @@ void TalkingFace::set_mood(const dam::Mood& mood) {
   moods_.change(now(), mood);
 }
 
-// The shares change no faster than lips do, also where one piece follows another.
-void TalkingFace::show_mood(double in_piece, fap::Frame& frame) {
+// What the sounds leave to the mouth of a mood changes no faster than lips do, also where one piece
+// follows another.
+void TalkingFace::follow_sounds(double in_piece) {
   const double seconds = signal_.rate.seconds(1);
   const dam::MoodMouth::Shares wanted = mouth_.at(in_piece);
   shares_.speech = nearer(shares_.speech, wanted.speech, kMoodSpeech * seconds);
@@ -307,6 +312,9 @@ void TalkingFace::show_mood(double in_piece, fap::Frame& frame) {
   shares_.teeth = nearer(shares_.teeth, wanted.teeth, kMoodSound * seconds);
   shares_.bite = nearer(shares_.bite, wanted.bite, kMoodSound * seconds);
   shares_.shut = nearer(shares_.shut, wanted.shut, kMoodSound * seconds);
+}
+
+void TalkingFace::show_mood(fap::Frame& frame) {
   moods_.forget(now());
   const dam::MoodPose pose = moods_.neutral() ? dam::MoodPose() : moods_.at(now());
   // All that it moves at once: each change of the mask costs an intra plane.
@@ -379,7 +387,9 @@ Result<fap::Frame> TalkingFace::next() {
   shown_ = row(signal_, at_);
   fap::Frame frame = clip_.frames[at_];
   behave(frame);
-  show_mood(signal_.time(at_++), frame);
+  follow_sounds(signal_.time(at_++));
+  if (over_) over_->next(shares_, frame);
+  show_mood(frame);
   frame.number = number_++;
   return frame;
 }

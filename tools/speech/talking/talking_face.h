@@ -14,11 +14,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "dam/behaviour/behaviour.h"
 #include "dam/model/model.h"
+#include "dam/performance/over_speech.h"
 #include "dam/script/mood.h"
 #include "dam/script/script.h"
 #include "dam/signal/signal.h"
@@ -36,6 +38,9 @@ struct FaceOptions {
   bool idle_motion = false;         ///< gaze, blinks, brows, head: see dam/behaviour/behaviour.h
   dam::IdleMotionOptions idle;      ///< of the idle motion; `prosody` is not used
   dam::Mood mood;                   ///< at the beginning
+  /// A performance under the speech, which repeats (dam/performance); null: none.
+  std::shared_ptr<const dam::Performance> over = nullptr;
+  dam::KeptShares keep = {};  ///< what is kept of it
 };
 
 /// The moods of a line.
@@ -104,7 +109,8 @@ class TalkingFace {
   Line line_from(std::size_t first, const fap::Frame& before) const;
   double now() const { return signal_.rate.seconds(double(number_)); }
   void plan_moods(const dam::Script& script, double start, const LineMoods& moods);
-  void show_mood(double in_piece, fap::Frame& frame);
+  void follow_sounds(double in_piece);
+  void show_mood(fap::Frame& frame);
 
   const dam::Model* model_;
   FaceOptions options_;
@@ -123,6 +129,7 @@ class TalkingFace {
   dam::MoodMouth::Shares shares_;            // as shown last
   std::optional<dam::Behaviour> behaviour_;  // nothing: no idle motion
   std::vector<int> moving_;                  // FAPs of it
+  std::optional<dam::PerformanceLoop> over_;
   std::int64_t closed_ = 0;  // number of the frame after the first one at rest behind cut()
 };
 
