@@ -124,6 +124,7 @@ Result<bool> Decoder::Impl::read_plane() {
   had_start_code = after_start_code;
   after_start_code = first_plane = false;
   position = plane_end;
+  if (!parsed.settled) warn(std::string(internal::kUnsettled), plane_begin);
   return true;
 }
 

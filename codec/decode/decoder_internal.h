@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "codec/decode/decoder.h"
@@ -18,6 +19,11 @@ namespace animeme::fba {
 namespace internal {
 
 inline constexpr std::size_t kPieceBytes = std::size_t(1) << 14;  // what decode() pushes at a time
+
+// The warning behind a plane in which other bits behind it would change values.
+inline constexpr std::string_view kUnsettled =
+    "the last values of a plane depend on the bits behind it, as no encoder writes them; they are "
+    "probably damaged";
 
 // Whether the bytes behind an end code are another stream.
 inline bool begins_stream(std::span<const std::uint8_t> bytes) {

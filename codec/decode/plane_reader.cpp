@@ -77,6 +77,7 @@ class PlaneParser {
     plane_.intra = in_.bit() != 0;
     plane_.object_mask = ObjectMask(in_.bits(2));
     plane_.temporal = {};
+    plane_.settled = true;
     if (plane_.object_mask == ObjectMask::nothing) return proceed(Stage::done);
     TemporalHeader& temporal = plane_.temporal;
     if (plane_.intra) {
@@ -221,7 +222,7 @@ class PlaneParser {
   }
 
   bool slots(SlotState& state, ParsedSlots& parsed, Stage next) {
-    return read_slot_segment(bits_, state, plane_.intra, progress_, parsed) && proceed(next);
+    return read_slot_segment(bits_, state, parsed, plane_) && proceed(next);
   }
 
   // codec/bitstream.md, section 3.2: up to four sets, a marker at every fourth member of each

@@ -67,6 +67,7 @@ struct ParsedPlane {
   bool viseme_def = false;
   bool init_face = false;
   bool expression_def = false;
+  bool settled = true;  ///< what follows the plane changes nothing in it
   ParsedSlots face{SlotCoding(face_slots()), {}};
   ParsedSlots body{SlotCoding(body_slots()), {}};
   PlaneProgress progress;

@@ -32,6 +32,7 @@ struct Piece {
   bool object = false;            // begins with an object start code
   bool coded = false;             // has a plane start code
   bool after_gap = false;         // units before it are missing
+  bool foreign = false;           // behind a start code of something else, which ends an object
   std::optional<double> seconds;  // its time, if a container says it
 
   bool intra() const { return plane_at < bytes.size() && (bytes[plane_at] & 0x80) != 0; }
@@ -72,10 +73,14 @@ struct Kept {
 
 class Repairer {
  public:
-  explicit Repairer(std::span<const Piece> pieces) : pieces_(pieces) {}
+  // What is borrowed is changed where pieces turn out to be one. `careful`: a plane that depends
+  // on what follows it is damage.
+  Repairer(std::span<Piece> pieces, bool careful) : pieces_(pieces), careful_(careful) {
+    written_.push(kPlaneCode);
+  }
 
   void run() {
-    for (std::size_t i = 0; i < pieces_.size(); ++i) take(i);
+    for (std::size_t i = 0; i < pieces_.size();) i = take(i);
   }
 
   const std::vector<Kept>& kept() const { return kept_; }
@@ -83,11 +88,20 @@ class Repairer {
   std::int64_t next() const { return next_; }  // number of the frame behind the last one
   const std::optional<Error>& first_failure() const { return failure_; }
   bool following() const { return following_; }  // the last unit is intact
+  bool careful() const { return careful_; }
 
  private:
-  void take(std::size_t index);
+  std::size_t take(std::size_t index);  // which one is next
   // What the decoder makes of a piece; the failure, if there is one.
-  std::optional<Error> decode_piece(const Piece& piece, bool goes_on, std::vector<Plane>& planes);
+  std::optional<Error> decode_piece(const Piece& piece, std::vector<Plane>& planes);
+  // The decoder continues behind what was kept: `following_`, with the next plane, else with an
+  // intra plane.
+  void restart();
+  // Tries a piece that cannot be decoded with those behind it that have no start code of ours.
+  // True: it is longer now, `planes` and `failed` are what comes out of it, and `next` lies behind
+  // it.
+  bool extend(std::size_t index, std::vector<Plane>& planes, std::optional<Error>& failed,
+              std::size_t& next);
   void keep(std::size_t index, const std::vector<Plane>& planes);
   void place(double seconds);
   void lose(std::int64_t bit, const Error& error, std::int64_t frames, bool estimated);
@@ -95,27 +109,45 @@ class Repairer {
   // Frames of a piece that was not decoded.
   std::int64_t frames_of(const Piece& piece, std::int64_t bits, bool& estimated) const;
 
-  std::span<const Piece> pieces_;
+  std::span<Piece> pieces_;
+  bool careful_ = true;
   std::vector<Kept> kept_;
   std::vector<Damage> damage_;
   std::optional<Error> failure_;
-  Decoder decoder_;
+  // Both have had a plane start code for what comes next, so that they know where a plane ends.
+  Decoder decoder_;       // of the pieces
+  Decoder written_;       // of what was kept, as it is written
+  std::int64_t fed_ = 0;  // bytes that decoder_ has had
+  std::int64_t written_bytes_ = std::int64_t(kPlaneCode.size());  // that written_ has had
   fap::Rate rate_{30, 1};
   bool following_ = false;  // the decoder has what the next predictive plane builds on
   bool single_ = true;      // so far each unit was one plane ...
   bool stuffed_ = true;     // ... and the bits behind it were stuffing
   bool in_damage_ = false;  // the last entry of damage_ goes on
-  std::int64_t fed_ = 0;    // bytes that the decoder has had, without a start code ahead
   std::int64_t next_ = 0;   // number of the next frame
   std::int64_t bits_ = 0;   // of what was kept
 };
 
-// The decoder knows the end of a plane by what follows, so it gets the next start code ahead.
-std::optional<Error> Repairer::decode_piece(const Piece& piece, bool goes_on,
-                                            std::vector<Plane>& planes) {
-  const std::int64_t begin = std::exchange(fed_, fed_ + std::int64_t(piece.bytes.size()));
-  decoder_.push(piece.bytes.subspan(goes_on ? kPlaneCode.size() : 0));
+// Ranges of an intra plane last until others are sent, and a face may begin while a body goes on:
+// the decoder has to know all that was kept, and nothing else.
+void Repairer::restart() {
+  decoder_ = written_;
+  fed_ = written_bytes_;
+  if (following_) return;
+  constexpr std::array<std::uint8_t, 3> kNoPlane = {0xB0, 0x00, 0xFF};  // intra, with a rate of 0
+  decoder_.push(kNoPlane);
   decoder_.push(kPlaneCode);
+  while (decoder_.next()) {
+  }
+  fed_ += std::int64_t(kNoPlane.size() + kPlaneCode.size());
+}
+
+std::optional<Error> Repairer::decode_piece(const Piece& piece, std::vector<Plane>& planes) {
+  const auto ahead = std::int64_t(piece.plane_at);
+  const std::int64_t begin = fed_ - ahead;
+  decoder_.push(piece.bytes.subspan(piece.plane_at));
+  decoder_.push(kPlaneCode);
+  fed_ = begin + std::int64_t(piece.bytes.size() + kPlaneCode.size());
   const auto misplaced = [](std::int64_t bit) {
     return error_at_bit(Code::syntax, "a plane does not end where the next one begins", bit);
   };
@@ -123,6 +155,11 @@ std::optional<Error> Repairer::decode_piece(const Piece& piece, bool goes_on,
     Result<Event> event = decoder_.next();
     if (!event && event.error().code == Code::need_data) break;
     if (!event) return event.error();
+    if (careful_ && event->kind == Event::Kind::warning && event->text == internal::kUnsettled) {
+      planes.pop_back();
+      return error_at_bit(Code::syntax, "the last values of a plane depend on what follows it",
+                          event->bit);
+    }
     if (event->kind != Event::Kind::plane) continue;
     Plane& plane = event->plane;
     plane.bit_begin -= begin * 8;
@@ -145,6 +182,34 @@ std::optional<Error> Repairer::decode_piece(const Piece& piece, bool goes_on,
   return std::nullopt;
 }
 
+// Encoders that do not look at their output write start codes in planes.
+bool Repairer::extend(std::size_t index, std::vector<Plane>& planes, std::optional<Error>& failed,
+                      std::size_t& next) {
+  const Piece& piece = pieces_[index];
+  Piece whole = piece;
+  std::size_t behind = index + 1;
+  for (; behind < pieces_.size(); ++behind) {
+    const Piece& more = pieces_[behind];
+    const std::size_t size = whole.bytes.size();
+    if (more.coded || more.object || more.bytes.data() != whole.bytes.data() + size) break;
+    whole.bytes = {whole.bytes.data(), size + more.bytes.size()};
+  }
+  if (behind == index + 1) return false;
+  restart();
+  std::vector<Plane> all;
+  std::optional<Error> error = decode_piece(whole, all);
+  if (error) {
+    const auto size = std::int64_t(piece.bytes.size()) * 8;
+    const bool further = all.size() > 1 && all[all.size() - 2].bit_end > size;
+    if (!further || (single_ && kept_.size() >= kUsual)) return false;
+  }
+  pieces_[index] = whole;
+  planes = std::move(all);
+  failed = std::move(error);
+  next = behind;
+  return true;
+}
+
 void Repairer::keep(std::size_t index, const std::vector<Plane>& planes) {
   const Piece& piece = pieces_[index];
   for (const Plane& plane : planes) {
@@ -161,6 +226,12 @@ void Repairer::keep(std::size_t index, const std::vector<Plane>& planes) {
     kept.rate = rate_;
     next_ += 1 + kept.skip;
     bits_ += kept.bit_end - kept.bit_begin;
+    const auto unit = internal::write_unit(piece.bytes, kept.bit_begin, kept.bit_end, false);
+    written_.push(std::span(unit).subspan(kPlaneCode.size()));
+    written_.push(kPlaneCode);
+    while (written_.next()) {
+    }
+    written_bytes_ += std::int64_t(unit.size());
     in_damage_ = false;
   }
 }
@@ -210,35 +281,39 @@ double Repairer::lost_at() const {
   return from ? *from + ahead : last.rate.seconds(double(last.number)) + ahead;
 }
 
-void Repairer::take(std::size_t index) {
+std::size_t Repairer::take(std::size_t index) {
   const Piece& piece = pieces_[index];
-  const std::int64_t size = std::int64_t(piece.bytes.size()) * 8;
+  std::size_t next = index + 1;
+  if (piece.foreign) return next;
   if (piece.after_gap) {
     lose(piece.offset * 8, make_error(Code::truncated, "planes are missing"), 0, false);
   }
   following_ = following_ && !piece.object && piece.coded;
   bool estimated = false;
-  if (!following_ && !piece.intra()) {
-    const std::int64_t frames = frames_of(piece, size, estimated);
+  const bool begins = piece.intra() && (piece.coded || piece.object);
+  if (!following_ && !begins) {
+    const auto bits = std::int64_t(piece.bytes.size()) * 8;
+    const std::int64_t frames = frames_of(piece, bits, estimated);
     const char* why = piece.coded || piece.object ? "there is no intra plane to begin with"
                                                   : "a plane has no start code";
     lose(piece.offset * 8, make_error(Code::syntax, why), frames, estimated);
-    return;
+    return next;
   }
-  const bool goes_on = following_;
-  if (!goes_on) {
-    decoder_ = {};
-    fed_ = 0;
-  }
+  if (!following_) restart();
   std::vector<Plane> planes;
-  const std::optional<Error> failed = decode_piece(piece, goes_on, planes);
+  std::optional<Error> failed = decode_piece(piece, planes);
+  if (failed) extend(index, planes, failed, next);
   following_ = true;
-  if (!failed) return keep(index, planes);
+  if (!failed) {
+    keep(index, planes);
+    return next;
+  }
+  const std::int64_t size = std::int64_t(piece.bytes.size()) * 8;
   // What reaches into the next unit is no plane. Of several planes, those before the last one are
   // followed by another one, unless the stream is cut off here; where each has a start code of its
   // own, the first is whole if what follows it was one.
   std::erase_if(planes, [&](const Plane& plane) { return plane.bit_end > size; });
-  const bool cut_off = failed->code == Code::truncated || index + 1 == pieces_.size();
+  const bool cut_off = failed->code == Code::truncated || next == pieces_.size();
   std::size_t good = planes.size() - (planes.empty() || cut_off ? 0 : 1);
   if (single_ && kept_.size() >= kUsual) {
     good = !planes.empty() && ends_at_damaged_code(piece.bytes, planes.front()) ? 1 : 0;
@@ -249,6 +324,7 @@ void Repairer::take(std::size_t index) {
   keep(index, planes);
   const std::int64_t from = planes.empty() ? 0 : planes.back().bit_end;
   lose(piece.offset * 8 + from, *failed, frames_of(piece, size - from, estimated), estimated);
+  return next;
 }
 
 // The units of the planes that were kept, with as many skipped frames as lie behind each. With
@@ -295,8 +371,9 @@ Cut cut(std::span<const std::uint8_t> stream) {
   std::optional<std::size_t> begin;
   bool foreign = false;  // a start code of something else, or one that is damaged
   const auto close = [&](std::size_t end, bool goes_on) {
-    if (begin && (goes_on || !foreign)) {
+    if (begin) {
       out.pieces.push_back(piece_of(stream.subspan(*begin, end - *begin), *begin));
+      out.pieces.back().foreign = foreign && !goes_on;
     }
     begin.reset();
     foreign = false;
@@ -335,6 +412,20 @@ Cut cut(std::span<const std::uint8_t> stream) {
 
 Error nothing_left(const std::optional<Error>& failure) {
   return failure.value_or(make_error(Code::truncated, "the stream holds no plane"));
+}
+
+// Where no intra plane is beyond doubt, those that can be decoded are better than nothing.
+Repairer repaired(std::vector<Piece>& pieces) {
+  std::vector<Piece> copy = pieces;
+  Repairer careful(copy, true);
+  careful.run();
+  if (careful.kept().empty()) {
+    Repairer tolerant(pieces, false);
+    tolerant.run();
+    return tolerant;
+  }
+  pieces = std::move(copy);
+  return careful;
 }
 
 // Whether a stream decodes, and without a doubt.
@@ -406,9 +497,8 @@ Result<Repaired> repair_stream(std::span<const std::uint8_t> stream) {
     out.stream.assign(stream.begin(), stream.end());
     return out;
   }
-  const Cut parts = cut(stream);
-  Repairer repairer(parts.pieces);
-  repairer.run();
+  Cut parts = cut(stream);
+  Repairer repairer = repaired(parts.pieces);
   const std::span<const Kept> kept = repairer.kept();
   if (kept.empty()) return nothing_left(repairer.first_failure());
   out.damage = std::move(repairer.damage());
@@ -419,13 +509,17 @@ Result<Repaired> repair_stream(std::span<const std::uint8_t> stream) {
     damage.seconds = kept.back().rate.seconds(double(repairer.next()));
     damage.reason = "the stream ends without an end code; it may be truncated";
   }
-  if (out.damage.empty()) {
+  if (out.damage.empty() && found != Soundness::damaged) {
     out.stream.assign(stream.begin(), stream.end());
     return out;
   }
+  if (out.damage.empty()) out.damage.emplace_back().reason = "the headers are damaged";
   AccessUnits units;
   units.units = units_of(kept, parts.pieces, true);
   out.stream = join_access_units(units);
+  if (!repairer.careful() && soundness(out.stream) == Soundness::damaged) {
+    return nothing_left(repairer.first_failure());
+  }
   return out;
 }
 
@@ -439,8 +533,7 @@ Result<std::vector<Damage>> repair_units(AccessUnits& units, std::span<const std
     piece.after_gap = std::binary_search(gaps.begin(), gaps.end(), pieces.size() - 1);
     offset += std::int64_t(unit.bytes.size());
   }
-  Repairer repairer(pieces);
-  repairer.run();
+  Repairer repairer = repaired(pieces);
   const std::span<const Kept> kept = repairer.kept();
   if (kept.empty()) return nothing_left(repairer.first_failure());
   if (repairer.damage().empty()) return std::vector<Damage>();
@@ -462,7 +555,11 @@ Result<std::vector<Damage>> repair_units(AccessUnits& units, std::span<const std
   const AccessUnit& last = units.units.back();
   intact.back().duration =
       std::max<std::int64_t>(1, last.time + last.duration - intact.back().time);
-  units.units = std::move(intact);
+  std::swap(units.units, intact);
+  if (!repairer.careful() && soundness(units) == Soundness::damaged) {
+    std::swap(units.units, intact);
+    return nothing_left(repairer.first_failure());
+  }
   return std::move(repairer.damage());
 }
 

@@ -33,7 +33,7 @@ std::size_t read_symbols(SegmentDecoder& segment, std::size_t first, std::size_t
   return i;
 }
 
-bool end_segment(PlaneBits& bits, const SegmentDecoder& segment) {
+bool end_segment(PlaneBits& bits, const SegmentDecoder& segment, ParsedPlane& plane) {
   const std::size_t end = segment.end();
   if (end > bits.in().size()) return bits.out_of_bits();
   if (segment.bad_stuffing() != SIZE_MAX) {
@@ -41,6 +41,7 @@ bool end_segment(PlaneBits& bits, const SegmentDecoder& segment) {
                      segment.bad_stuffing());
   }
   bits.in().seek(end);
+  plane.settled = plane.settled && segment.cursor().settled();
   return true;
 }
 
@@ -84,11 +85,12 @@ bool read_high_segment(PlaneBits& bits, const HighLevelState& high, int fap_quan
     return flat_symbol(cursor, max + 1, plane.high_symbols[which]);
   };
   if (read_symbols(segment, std::size_t(first), end, read) != end) return bits.out_of_bits();
-  return end_segment(bits, segment);
+  return end_segment(bits, segment, plane);
 }
 
-bool read_slot_segment(PlaneBits& bits, SlotState& state, bool intra, PlaneProgress& progress,
-                       ParsedSlots& parsed) {
+bool read_slot_segment(PlaneBits& bits, SlotState& state, ParsedSlots& parsed, ParsedPlane& plane) {
+  const bool intra = plane.intra;
+  PlaneProgress& progress = plane.progress;
   const SlotCoding& coding = intra ? parsed.coding : state.coding;
   const std::uint16_t* coded = coding.coded.data();
   const std::size_t count = coding.coded.size();
@@ -123,7 +125,7 @@ bool read_slot_segment(PlaneBits& bits, SlotState& state, bool intra, PlaneProgr
     return bits.out_of_bits();
   }
   progress.segment.reset();
-  return end_segment(bits, segment);
+  return end_segment(bits, segment, plane);
 }
 
 }  // namespace animeme::fba::internal

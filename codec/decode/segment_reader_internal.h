@@ -45,10 +45,9 @@ class PlaneBits {
 bool read_high_segment(PlaneBits& bits, const HighLevelState& high, int fap_quant, int first,
                        int last, ParsedPlane& plane);
 
-/// Symbols of the coded slots of one family. Goes on where `progress` says that it stopped. The
-/// models of `state` learn the symbols of predictive planes as they are read. False: there is an
-/// error in `bits`.
-bool read_slot_segment(PlaneBits& bits, SlotState& state, bool intra, PlaneProgress& progress,
-                       ParsedSlots& parsed);
+/// Symbols of the coded slots of one family, which is `parsed` of `plane`. Goes on where the
+/// progress of the plane says that it stopped. The models of `state` learn the symbols of
+/// predictive planes as they are read. False: there is an error in `bits`.
+bool read_slot_segment(PlaneBits& bits, SlotState& state, ParsedSlots& parsed, ParsedPlane& plane);
 
 }  // namespace animeme::fba::internal

@@ -125,6 +125,12 @@ class SegmentCursor {
     offset_ = (offset_ - begin) << shift | take(shift);
     return true;
   }
+  /// Whether the symbols so far are the same whatever follows a segment that ends here: its last
+  /// two bits say where in the interval the value lies, as flush() of an encoder writes them.
+  bool settled() const {
+    const std::uint32_t quarter = (low_ + offset_) & ~0x3FFFU;
+    return quarter >= low_ && quarter + 0x4000U <= low_ + length_;
+  }
   /// There are fewer bits ahead than a symbol can take: SegmentDecoder::refill() is due.
   bool needs_bits() const { return ahead_bits_ < 16; }
 

@@ -4,11 +4,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 
 #include "codec/decode/decoder.h"
 #include "codec/encode/encode.h"
+#include "tests/support/files.h"
 #include "tests/support/random_clip.h"
+#include "tests/support/reference_streams.h"
 
 namespace animeme {
 namespace repair_test {
@@ -181,6 +184,85 @@ TEST(Repair, ACutStreamKeepsWhatIsThere) {
     EXPECT_EQ(kept.same, whole) << size;
     EXPECT_EQ(kept.wrong, 0u);
   }
+}
+
+// The planes that end before a bit.
+std::vector<fba::Plane> planes_before(const Bytes& stream, std::int64_t bit) {
+  fba::Decoder decoder;
+  decoder.push(stream);
+  decoder.finish();
+  std::vector<fba::Plane> planes;
+  for (;;) {
+    auto event = decoder.next();
+    if (!event) return planes;
+    if (event->kind != fba::Event::Kind::plane) continue;
+    if (event->plane.bit_end > bit) return planes;
+    planes.push_back(std::move(event->plane));
+  }
+}
+
+// Flips bits, overwrites, cuts off, takes out and clears bytes: one of these, up to three times.
+// Returns the first byte that is no longer what it was.
+std::size_t hurt(Bytes& stream, test::Random& random) {
+  std::size_t first = stream.size();
+  const int kind = random.range(0, 4), times = random.range(1, 3);
+  for (int i = 0; i < times && stream.size() > 16; ++i) {
+    const auto at = std::size_t(random.range(0, int(stream.size()) - 1));
+    const auto wanted = std::size_t(random.range(1, 188));
+    const auto length = std::min(wanted, stream.size() - at);
+    const auto from = stream.begin() + std::ptrdiff_t(at);
+    first = std::min(first, at);
+    if (kind == 0) *from ^= std::uint8_t(1 << random.range(0, 7));
+    if (kind == 1) *from = std::uint8_t(random.range(0, 255));
+    if (kind == 2) stream.resize(std::max<std::size_t>(8, at));
+    if (kind == 3) stream.erase(from, from + std::ptrdiff_t(length));
+    if (kind == 4) std::fill_n(from, std::min<std::size_t>(length, 40), std::uint8_t(0));
+  }
+  return first;
+}
+
+bool same_plane(const fba::Plane& a, const fba::Plane& b) {
+  const bool bodies = (a.body == nullptr) == (b.body == nullptr);
+  return a.number == b.number && a.intra == b.intra && a.object_mask == b.object_mask &&
+         a.face == b.face && bodies && (a.body == nullptr || a.body->value == b.body->value);
+}
+
+// Streams of any encoder: without start codes, with start codes inside of planes, with face and
+// body in turn, with intra planes that send no ranges.
+TEST(Repair, WhatIsWrittenDecodesWithAllThatIsBeforeTheDamage) {
+  const auto streams = test::reference_streams();
+  ASSERT_FALSE(streams.empty());
+  std::size_t damaged = 0, lost = 0;
+  for (std::uint64_t seed = 1; seed <= 1500; ++seed) {
+    test::Random random(seed);
+    const auto& base = streams[random.next() % streams.size()];
+    Bytes stream = test::read_bytes(base.string() + ".fba");
+    if (stream.size() < 32 || stream.size() > 40000) continue;
+    const std::size_t first = hurt(stream, random);
+    const auto repaired = fba::repair_stream(stream);
+    // Fewer than 16 bits behind a plane may count for it.
+    const auto whole = planes_before(stream, std::int64_t(first) * 8 - 16);
+    if (!repaired) {
+      lost += whole.size() > 1;
+      continue;
+    }
+    const auto decoded = fba::decode(repaired->stream);
+    ASSERT_TRUE(decoded) << seed << " " << base << ": " << decoded.error().describe();
+    if (repaired->damage.empty()) continue;
+    ++damaged;
+    ASSERT_GE(decoded->planes.size() + 1, whole.size()) << seed << " " << base;
+    for (std::size_t i = 0; i + 1 < whole.size(); ++i) {
+      ASSERT_TRUE(same_plane(whole[i], decoded->planes[i])) << seed << " " << base << " " << i;
+    }
+    auto units = fba::split_access_units(repaired->stream);
+    ASSERT_TRUE(units) << seed << " " << base;
+    const auto before = *units;
+    const auto again = fba::repair_units(*units);
+    ASSERT_TRUE(again) << seed << " " << base;
+    EXPECT_EQ(again->empty(), *units == before);
+  }
+  EXPECT_GT(damaged, 600u);
+  EXPECT_EQ(lost, 0u);
 }
 
 TEST(Repair, NothingLeftIsAnError) {
