@@ -56,9 +56,12 @@ struct FdpOptions {
   /// Largest number of regions per FAP and mesh, 1..100. With 1 each FAP has one region, easily
   /// edited in XfaceEd; more approximate the rig better and leave fewer creases.
   int regions = 64;
+  /// Writes FdpFiles::keyframes, without which Xface shows no FAP 1 and 2. They take some 3 MB
+  /// each; parts that stay in all of them are then in a mesh file of their own.
+  bool keyframes = false;
 };
 
-/// A texture of a face.
+/// A file beside that of the face.
 struct FdpTexture {
   std::string name;     ///< file name, such as NAME_skin.tga
   std::string content;  ///< its bytes
@@ -69,6 +72,9 @@ struct FdpFiles {
   std::string fdp;                   ///< NAME.fdp
   std::string wrl;                   ///< NAME.wrl, named in it
   std::vector<FdpTexture> textures;  ///< named in the .wrl; one for each part that has colours
+  /// If asked for: NAME_still.wrl and, as NAME_ALIAS.wrl, the visemes and expressions by which
+  /// Xface shows FAP 1 and 2 (fap/head/face_models.md).
+  std::vector<FdpTexture> keyframes;
 };
 
 /// Writes a head for Xface. One VRML97 file with a submesh for each part that is not empty; an

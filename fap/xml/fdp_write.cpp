@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <cmath>
 
 #include "fap/detail/number_text.h"
 #include "fap/head/wrl.h"
 #include "fap/xml/detail/colour_plane.h"
+#include "fap/xml/detail/fdp_keyframes.h"
 #include "fap/xml/detail/fdp_plan.h"
 #include "fap/xml/detail/moves.h"
 #include "fap/xml/fdp.h"
@@ -10,6 +12,7 @@
 namespace animeme::head {
 namespace {
 
+using detail::FdpKeyframe;
 using detail::FdpPlan;
 using detail::XfaceItem;
 using fap::detail::append_shortest;
@@ -57,10 +60,27 @@ std::string_view binding_of(Part part) {
   return {};
 }
 
+constexpr const char* kStill = "_still";
+
+// Whether a part of the plan is in the file of those that no keyframe moves.
+bool stays(std::span<const FdpKeyframe> keyframes, std::size_t mesh) {
+  return !keyframes.empty() && keyframes.front().positions[mesh].empty();
+}
+bool any_stays(std::span<const FdpKeyframe> keyframes, const FdpPlan& plan) {
+  for (std::size_t m = 0; m < plan.parts.size(); ++m)
+    if (stays(keyframes, m)) return true;
+  return false;
+}
+
 class FdpWriter {
  public:
-  FdpWriter(const Head& head, const FdpPlan& plan, const FdpOptions& options)
-      : head_(head), plan_(plan), options_(options), scale_(float(options.scale)) {}
+  FdpWriter(const Head& head, const FdpPlan& plan, std::span<const FdpKeyframe> keyframes,
+            const FdpOptions& options)
+      : head_(head),
+        plan_(plan),
+        keyframes_(keyframes),
+        options_(options),
+        scale_(float(options.scale)) {}
 
   std::string write() {
     text_ = "<?xml version=\"1.0\" encoding=\"UTF-8\" standalone=\"no\" ?>\n<xfdp>\n";
@@ -78,7 +98,13 @@ class FdpWriter {
     text_ += "\"";
   }
   std::string submesh(std::size_t mesh) const {
-    return options_.name + ".wrl_" + std::to_string(mesh);
+    const auto same_file = [&](std::size_t m) {
+      return stays(keyframes_, m) == stays(keyframes_, mesh);
+    };
+    std::size_t number = 0;
+    for (std::size_t m = 0; m < mesh; ++m) number += same_file(m) ? 1 : 0;
+    return options_.name + (stays(keyframes_, mesh) ? kStill : "") + ".wrl_" +
+           std::to_string(number);
   }
 
   void add_header() {
@@ -99,9 +125,8 @@ class FdpWriter {
   }
 
   void add_source() {
-    text_ +=
-        "  <source>\n    <entity alias=\"Rest\" category=\"Expression\">\n      <mesh file=\"" +
-        options_.name + ".wrl\" format=\"wrl\"/>\n";
+    text_ += "  <source>\n    <entity alias=\"Rest\" category=\"Expression\">\n";
+    add_meshes_of("");
     for (std::size_t m = 0; m < plan_.parts.size(); ++m) {
       const Part part = plan_.parts[m];
       if (binding_of(part).empty()) continue;
@@ -115,7 +140,24 @@ class FdpWriter {
       }
       text_ += " submesh=\"" + submesh(m) + "\"/>\n";
     }
-    text_ += "    </entity>\n  </source>\n";
+    text_ += "    </entity>\n";
+    for (const FdpKeyframe& keyframe : keyframes_) {
+      text_ += "    <entity alias=\"" + std::string(keyframe.alias) + "\" category=\"" +
+               std::string(keyframe.category) + "\">\n";
+      add_meshes_of("_" + std::string(keyframe.alias));
+      text_ += "    </entity>\n";
+    }
+    text_ += "  </source>\n";
+  }
+
+  // Xface pairs the meshes of two entities by their order.
+  void add_meshes_of(const std::string& suffix) {
+    add_mesh(suffix);
+    if (any_stays(keyframes_, plan_)) add_mesh(kStill);
+  }
+  void add_mesh(std::string_view suffix) {
+    text_ +=
+        "      <mesh file=\"" + options_.name + std::string(suffix) + ".wrl\" format=\"wrl\"/>\n";
   }
 
   void add_item(const XfaceItem& item) {
@@ -137,29 +179,64 @@ class FdpWriter {
 
   const Head& head_;
   const FdpPlan& plan_;
+  std::span<const FdpKeyframe> keyframes_;
   const FdpOptions& options_;
   float scale_;
   std::string text_;
 };
 
-void add_meshes(const Head& head, const FdpPlan& plan, const FdpOptions& options, FdpFiles& out) {
+struct MeshFile {
   std::vector<Piece> pieces;
   std::vector<PieceTexture> textures;
-  for (const Part part : plan.parts) {
+
+  void add(Piece piece, PieceTexture texture) {
+    pieces.push_back(std::move(piece));
+    textures.push_back(std::move(texture));
+  }
+  std::string text() const { return write_wrl(pieces, textures); }
+};
+
+// A thousandth of a unit is enough for a mesh that is morphed to, and shorter.
+Vec3 rounded(Vec3 p) {
+  const auto round = [](float x) { return std::round(x * 1000) / 1000; };
+  return {round(p.x), round(p.y), round(p.z)};
+}
+
+void add_meshes(const Head& head, const FdpPlan& plan, std::span<const FdpKeyframe> keyframes,
+                const FdpOptions& options, FdpFiles& out) {
+  MeshFile rest, still;
+  std::vector<MeshFile> morphs(keyframes.size());
+  const auto scale = float(options.scale);
+  for (std::size_t m = 0; m < plan.parts.size(); ++m) {
+    const Part part = plan.parts[m];
     Piece piece{.name = std::string(kPartNames[std::size_t(part)]),
                 .material = {},
                 .mesh = head.part(part),
                 .neck_weights = {}};
-    textures.emplace_back();
+    PieceTexture texture;
     if (!piece.mesh.colours.empty()) {
       detail::ColourPlane plane = detail::colour_plane(piece.mesh);
-      textures.back() = {options.name + "_" + piece.name + ".tga", std::move(plane.places)};
-      out.textures.push_back({textures.back().file, detail::write_tga(plane.picture)});
+      texture = {options.name + "_" + piece.name + ".tga", std::move(plane.places)};
+      out.textures.push_back({texture.file, detail::write_tga(plane.picture)});
     }
-    for (Vec3& p : piece.mesh.positions) p *= float(options.scale);
-    pieces.push_back(std::move(piece));
+    for (std::size_t k = 0; k < keyframes.size() && !stays(keyframes, m); ++k) {
+      Piece morph = piece;
+      morph.mesh.colours.clear();
+      const std::vector<Vec3>& to = keyframes[k].positions[m];
+      for (std::size_t v = 0; v < to.size(); ++v) morph.mesh.positions[v] = rounded(to[v] * scale);
+      morphs[k].add(std::move(morph), texture);
+    }
+    for (Vec3& p : piece.mesh.positions) p *= scale;
+    (stays(keyframes, m) ? still : rest).add(std::move(piece), std::move(texture));
   }
-  out.wrl = write_wrl(pieces, textures);
+  out.wrl = rest.text();
+  if (!still.pieces.empty()) {
+    out.keyframes.push_back({options.name + kStill + ".wrl", still.text()});
+  }
+  for (std::size_t k = 0; k < keyframes.size(); ++k) {
+    const std::string suffix = "_" + std::string(keyframes[k].alias);
+    out.keyframes.push_back({options.name + suffix + ".wrl", morphs[k].text()});
+  }
 }
 
 }  // namespace
@@ -168,8 +245,10 @@ Result<FdpFiles> write_fdp(const Head& head, const Rig& rig, const FdpOptions& o
   if (auto good = check(head, rig, options); !good) return good.error();
   const FdpPlan plan = detail::plan_fdp(head, rig, options);
   FdpFiles files;
-  files.fdp = FdpWriter(head, plan, options).write();
-  add_meshes(head, plan, options, files);
+  std::vector<FdpKeyframe> keyframes;
+  if (options.keyframes) keyframes = detail::fdp_keyframes(rig, plan.parts);
+  files.fdp = FdpWriter(head, plan, keyframes, options).write();
+  add_meshes(head, plan, keyframes, options, files);
   return files;
 }
 

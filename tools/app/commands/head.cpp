@@ -232,15 +232,20 @@ std::string plain_name(std::string name) {
 
 Result<void> write_fdp(const Output& out) {
   const std::string name = plain_name(out.name());
-  const Result<head::FdpFiles> made = head::write_fdp(out.head, out.rig, {.name = name});
+  const Result<head::FdpFiles> made =
+      head::write_fdp(out.head, out.rig, {.name = name, .keyframes = true});
   if (!made) return made.error();
   std::vector<OutputText> files = {{out.path, made->fdp}, {out.beside(name + ".wrl"), made->wrl}};
   for (const head::FdpTexture& texture : made->textures) {
     files.push_back({out.beside(texture.name), texture.content});
   }
+  for (const head::FdpTexture& mesh : made->keyframes) {
+    files.push_back({out.beside(mesh.name), mesh.content});
+  }
   if (auto ok = write_together(files); !ok) return ok;
-  say(out.path + ", its mesh " + files[1].path + " and " + std::to_string(made->textures.size()) +
-      " textures (" + name + "_*.tga); keep them together");
+  say(out.path + ", its mesh " + files[1].path + ", its visemes and expressions (" + name +
+      "_*.wrl) and " + std::to_string(made->textures.size()) + " textures (" + name +
+      "_*.tga); keep them together");
   return {};
 }
 
