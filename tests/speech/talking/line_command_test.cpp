@@ -36,6 +36,20 @@ TEST(LineCommand, ReadsAllOfThem) {
   EXPECT_EQ(good(R"({"do":"say","text":"x","when":"now","id":null})").when, When::now);
 }
 
+TEST(LineCommand, LanguagesAndMembersThatNobodyKnows) {
+  EXPECT_EQ(good(R"({"do":"say","text":"Ja.","lang":"de"})").language, "de");
+  EXPECT_EQ(good(R"({"do":"say","text":"Ja.","language":"de+f3"})").language, "de+f3");
+  EXPECT_EQ(good(R"({"do":"say","text":"Yes."})").language, "");
+  const auto unknown = read_line(R"({"do":"say","text":"x","volume":3})", false);
+  ASSERT_FALSE(unknown);
+  EXPECT_THAT(unknown.error().message, HasSubstr("\"volume\""));
+  EXPECT_THAT(unknown.error().message, HasSubstr("text, when, lang"));
+  EXPECT_FALSE(read_line(R"({"do":"stop","when":"now"})", false));
+  EXPECT_FALSE(read_line(R"({"do":"look","target":"away","mood":"joy"})", true));
+  // Among pieces, "say" has the members of services.
+  EXPECT_EQ(good(R"({"do":"say","audio":"AAAA","status_code":206})", true).what, Do::say);
+}
+
 TEST(LineCommand, Moods) {
   const LineCommand mood = good(R"({"do":"mood","mood":"joy:0.6"})");
   EXPECT_EQ(mood.what, Do::mood);

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tools/speech/talking/line_events.h"
+
 namespace animeme::speech {
 namespace line_queue_test {
 
@@ -135,17 +137,51 @@ TEST_F(Queue, BadCommandsAreWarningsThatNameTheirLine) {
   EXPECT_THAT(taken(), ElementsAre("1", "3"));
 }
 
-TEST_F(Queue, LongTextIsCutWhereItHasNoName) {
+TEST_F(Queue, LongTextIsSpokenInPartsAndIsOneLineIfItHasAName) {
   const std::string text = "{ " + std::string(50, 'a') + " " + std::string(70, 'b');
   push(text);
   EXPECT_THAT(news(), ElementsAre("queued 1", "queued 2"));
   EXPECT_THAT(taken(), ElementsAre("1", "2"));
-  push("{\"do\":\"say\",\"id\":\"x\",\"text\":\"" + std::string(101, 'c') + "\"}");
-  const auto told = news();
-  ASSERT_EQ(told.size(), 2u);
-  EXPECT_EQ(told[0], "queued x");
-  EXPECT_THAT(told[1], HasSubstr("cancelled x it has more than 100 bytes"));
-  EXPECT_THAT(taken(), IsEmpty());
+  const std::string named = "{\"do\":\"say\",\"id\":\"x\",\"text\":\"" + std::string(60, 'c') +
+                            ". Go on. " + std::string(60, 'd') + " and " + std::string(60, 'e') +
+                            "\"}";
+  push(named);
+  EXPECT_THAT(news(), ElementsAre("queued x"));
+  make_all();
+  LineEvents events;
+  std::vector<std::string> texts, told;
+  const auto tell = [&](double time) {
+    events.tell(time);
+    for (const LineEvent& event : events.take()) told.push_back(to_json(event).substr(0, 40));
+  };
+  double at = 1;
+  while (auto line = queue.take(false)) {
+    texts.push_back(line->text);
+    EXPECT_EQ(line->whole, 3u);
+    events.begin(*line, at, at + 1);
+    ++at;
+    make_all();
+  }
+  tell(10);
+  EXPECT_EQ(texts.size(), 3u);
+  EXPECT_THAT(told, ElementsAre(HasSubstr("started"), HasSubstr("done")));
+
+  // Stopped in its first part, all of it is cancelled once.
+  told.clear();
+  push(named);
+  (void)news();
+  make_all();
+  events.begin(*queue.take(false), 11, 12);
+  push("{\"do\":\"stop\"}");
+  for (const LineNews& one : queue.take_news()) {
+    if (one.what == What::stopped) events.cut(11.5, one.line, "stopped");
+    if (one.what != What::cancelled) continue;
+    EXPECT_TRUE(one.part);
+    events.cancel_parts(
+        {.what = LineEvent::What::cancelled, .time = 11.5, .line = one.line, .id = one.id});
+  }
+  tell(20);
+  EXPECT_THAT(told, ElementsAre(HasSubstr("started"), HasSubstr("cancelled")));
 }
 
 TEST_F(Queue, FourAreMadeAheadAndNextOnesAtOnce) {

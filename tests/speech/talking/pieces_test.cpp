@@ -124,6 +124,123 @@ TEST(Piece, TimesOfServicesStandInThePieceItself) {
   EXPECT_EQ(labels_of(eleven.speech.script), "SIL B AA B SIL");
 }
 
+TEST(Piece, ChannelsAndCodingsOfTelephones) {
+  std::string both;
+  for (const int value : {1000, 3000, -2000, 2000}) {
+    both += char(value & 255);
+    both += char(value >> 8 & 255);
+  }
+  const SpokenLine stereo = good(
+      {{"audio", encoded(both)}, {"sample_rate", 8000}, {"channels", 2}, {"script", "0 1 AA"}});
+  EXPECT_EQ(stereo.speech.audio.samples, (std::vector<float>{2000.0F / 32768, 0}));
+  // ITU-T G.711: the codes of the largest values, of small ones and of 0.
+  for (const char* name : {"mulaw", "ulaw_8000", "g711_ulaw", "PCMU", "raw-8khz-8bit-mono-mulaw"}) {
+    const SpokenLine line = good({{"audio", encoded(std::string("\x80\x00\xFF\xEF\x7F", 5))},
+                                  {"encoding", name},
+                                  {"script", "0 1 AA"}});
+    EXPECT_EQ(line.speech.audio.sample_rate, 8000) << name;
+    EXPECT_EQ(line.speech.audio.samples,
+              (std::vector<float>{32124.0F / 32768, -32124.0F / 32768, 0, 132.0F / 32768, 0}))
+        << name;
+  }
+  const SpokenLine alaw =
+      good({{"audio", encoded("\xAA\x2A\xD5\x55")}, {"encoding", "alaw"}, {"script", "0 1 AA"}});
+  EXPECT_EQ(alaw.speech.audio.samples,
+            (std::vector<float>{32256.0F / 32768, -32256.0F / 32768, 8.0F / 32768, -8.0F / 32768}));
+}
+
+TEST(Piece, WhatDoesNotFitTheSoundIsToldAndTheSoundIsHeard) {
+  const SpokenLine longer =
+      good({{"audio", encoded(samples(1000))}, {"sample_rate", 16000}, {"script", kScript}});
+  EXPECT_EQ(longer.speech.audio.samples.size(), 1000u);
+  EXPECT_DOUBLE_EQ(longer.speech.script.duration(), 1000.0 / 16000);
+  EXPECT_THAT(longer.doubt, HasSubstr("338 ms behind its sound"));
+  const SpokenLine broken = good(
+      {{"audio", encoded(samples(1000))}, {"sample_rate", 16000}, {"script", "no script at all"}});
+  EXPECT_EQ(broken.speech.audio.samples.size(), 1000u);
+  EXPECT_THAT(broken.doubt, HasSubstr("script cannot be read"));
+}
+
+// Made piece by piece: what the lines of a stream become.
+std::vector<SpokenLine> all_of(const std::vector<Json>& messages) {
+  PieceStream stream({});
+  std::vector<std::uint64_t> keys;
+  for (const Json& message : messages) {
+    const auto taken = stream.add(message.dump());
+    EXPECT_TRUE(taken) << taken.error().describe();
+    if (taken && taken->key != 0) keys.push_back(taken->key);
+  }
+  std::vector<SpokenLine> lines;
+  for (const std::uint64_t key : keys) {
+    auto line = stream.make(key);
+    EXPECT_TRUE(line) << line.error().describe();
+    if (line) lines.push_back(std::move(*line));
+    stream.forget(key);
+  }
+  return lines;
+}
+
+TEST(Piece, APhoneGoesOnInTheNextPiece) {
+  const std::string audio = encoded(samples(1600));  // 0.1 s
+  const auto lines =
+      all_of({{{"audio", audio}, {"sample_rate", 16000}, {"script", "0 0.03 B\n0.03 0.25 AA"}},
+              {{"audio", audio}},
+              {{"audio", audio}, {"script", "0.04 0.1 M"}}});
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_EQ(labels_of(lines[0].speech.script), "B AA");
+  EXPECT_EQ(labels_of(lines[1].speech.script), "AA");
+  EXPECT_TRUE(lines[1].goes_on);
+  EXPECT_EQ(labels_of(lines[2].speech.script), "AA M");
+  EXPECT_TRUE(lines[2].goes_on);
+  EXPECT_NEAR(lines[2].speech.script.phones[0].end, 0.04, 1e-9);
+}
+
+TEST(Piece, TimesInMessagesOfTheirOwnBeforeAndBehindTheirSound) {
+  const std::string audio = encoded(samples(1600));  // 0.1 s
+  const auto times = [](const char* script) {
+    return Json({{"context_id", 7}, {"script", script}});
+  };
+  const Json sound = {{"audio", audio}, {"sample_rate", 16000}, {"context_id", 7}};
+  for (const auto& messages :
+       {std::vector<Json>{times("0 0.08 AA"), sound, times("0.12 0.2 M"), sound},
+        std::vector<Json>{sound, sound, times("0 0.08 AA"), times("0.12 0.2 M")}}) {
+    const auto lines = all_of(messages);
+    ASSERT_EQ(lines.size(), 2u);
+    EXPECT_EQ(labels_of(lines[0].speech.script), "AA SIL");
+    EXPECT_EQ(labels_of(lines[1].speech.script), "SIL M");
+    EXPECT_NEAR(lines[1].speech.script.phones[1].start, 0.02, 1e-9);
+  }
+  // With their sound they count from where they fit, or as is said.
+  for (const char* from : {"piece", "utterance"}) {
+    Json second = sound;
+    second["script"] = std::string(from) == "piece" ? "0.02 0.1 M" : "0.12 0.2 M";
+    for (const bool said : {false, true}) {
+      if (said) second["times_from"] = from;
+      EXPECT_EQ(labels_of(all_of({sound, second})[1].speech.script), "SIL M") << from;
+    }
+  }
+}
+
+TEST(Piece, ATextOfAnUtteranceWithoutSoundIsSpokenAtItsEnd) {
+  PieceStream stream({});
+  const auto text = stream.add(R"({"utterance": "a", "text": "Hello"})");
+  ASSERT_TRUE(text);
+  EXPECT_EQ(text->key, 0u);
+  const auto end = stream.add(R"({"utterance": "a", "done": true})");
+  ASSERT_TRUE(end);
+  EXPECT_NE(end->key, 0u);
+  EXPECT_EQ(end->text, "Hello");
+  // Messages of services about other things are no errors, and say nothing.
+  for (const char* talk : {R"({"type": "flush_done"})", R"({"sample_rate": 24000})",
+                           R"({"type": "speech.audio.done", "usage": {"tokens": 3}})"}) {
+    const auto taken = stream.add(talk);
+    ASSERT_TRUE(taken) << talk;
+    EXPECT_EQ(taken->key, 0u) << talk;
+  }
+  EXPECT_THAT(stream.add(R"({"type": "error", "message": "no credit"})")->warning,
+              HasSubstr("no credit"));
+}
+
 TEST(Piece, TimesWithoutSoundMoveTheFaceAlone) {
   const SpokenLine line = good({{"script", kScript}});
   EXPECT_TRUE(line.speech.audio.samples.empty());
@@ -145,10 +262,10 @@ TEST(Piece, SaysWhatIsWrong) {
               HasSubstr("from 1000 to 384000"));
   EXPECT_THAT(said(Json({{"audio", audio}, {"encoding", "pcm"}, {"script", kScript}}).dump()),
               HasSubstr("sample_rate"));
-  EXPECT_THAT(said(Json({{"audio", audio}, {"sample_rate", 16000}}).dump()),
-              HasSubstr("neither timings nor a text"));
-  EXPECT_THAT(said(Json({{"audio", audio}, {"sample_rate", 16000}, {"script", kScript}}).dump()),
-              HasSubstr("the script lasts 0.4 s"));
+  EXPECT_THAT(said(Json({{"audio", audio}, {"channels", 17}, {"sample_rate", 16000}}).dump()),
+              HasSubstr("from 1 to 16"));
+  EXPECT_THAT(said(R"({"script": "0 1 AA", "times_from": "here"})"), HasSubstr("\"here\""));
+  EXPECT_THAT(said(R"({"some": "thing"})"), HasSubstr("neither sound nor a text"));
   EXPECT_THAT(said(Json({{"audio", audio}, {"script", kScript}}).dump()), HasSubstr("media"));
   EXPECT_THAT(said("{\"file\": \"no.wav\", \"script\": \"0 1 AA\"}"), HasSubstr("no.wav"));
   EXPECT_THAT(said("{\"script\": \"0 1 AA\\n0.5 2 B\"}"), HasSubstr("overlap"));
@@ -181,7 +298,7 @@ TEST(Piece, LinesOfAnyLengthAreLeftOutOrKeptWhole) {
   }
   writer.join();
   ASSERT_EQ(all.size(), 2u);
-  EXPECT_EQ(all[0].speech.audio.samples.size(), 7000u);
+  EXPECT_EQ(all[0].speech.audio.samples.size(), 21000u);  // at 48000 a second
   EXPECT_TRUE(all[1].speech.audio.samples.empty());
   EXPECT_THAT((*lines)->take_warnings(),
               testing::ElementsAre(testing::AllOf(HasSubstr("line 2"), HasSubstr("40000"))));

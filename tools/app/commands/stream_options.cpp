@@ -26,7 +26,8 @@ void add_source_options(OptionTable& cli, StreamOptions& options) {
   cli.add("--say-audio", options.program.say_audio,
           "A voice as it arrives, which the face follows: WAV, - for standard input")
       ->value("FILE");
-  cli.add("--pcm", options.pcm, "--say-audio is raw 16-bit PCM: 16000, 48000:2 ...")
+  cli.add("--pcm", options.pcm,
+          "--say-audio is raw 16-bit PCM: 16000, 48000:2 ...; mulaw or alaw: a telephone, 8000 Hz")
       ->value("RATE[:CHANNELS]")
       ->check(problem_of<speech::parse_bare_sound>)
       ->needs("--say-audio");

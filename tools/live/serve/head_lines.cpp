@@ -110,14 +110,15 @@ void HeadLines::order() {
 
 void HeadLines::make_one() {
   if (std::optional<speech::LineQueue::Job> job = queue_.try_job()) {
-    const auto wanted = [this, line = job->line] { return queue_.wanted(line); };
+    const std::uint64_t number = job->line;
+    const auto wanted = [this, number] { return queue_.wanted(number); };
     Result<speech::SpokenLine> line = make_error(Code::internal, "");
     try {
-      line = maker_.make(std::move(job->payload), wanted);
+      line = speech::make_line(maker_, std::move(*job), wanted);
     } catch (const std::exception& problem) {  // memory
       line = make_error(Code::out_of_range, problem.what());
     }
-    queue_.made(job->line, std::move(line), clock_.now());
+    queue_.made(number, std::move(line), clock_.now());
   }
   {
     const std::lock_guard lock(mutex_);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "tools/speech/talking/json_line_internal.h"
 
@@ -87,6 +88,33 @@ Result<dam::Look> read_target(const Json& object) {
   return dam::parse_look(text);
 }
 
+// Names of a command's members besides "do". A typing error must not be ignored.
+Result<void> check_members(const Json& object, Do what) {
+  std::vector<std::string_view> known = {"do", "id"};
+  switch (what) {
+    case Do::say:
+      known.insert(known.end(), {"text", "when", "lang", "language", "mood", "intensity"});
+      break;
+    case Do::mood:
+      known.insert(known.end(), {"mood", "intensity"});
+      break;
+    case Do::look:
+      known.insert(known.end(), {"target"});
+      break;
+    default:
+      break;
+  }
+  for (const auto& [key, value] : object.items()) {
+    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    std::string list;
+    for (const std::string_view name : known)
+      list += (list.empty() ? "" : ", ") + std::string(name);
+    return make_error(Code::invalid_argument,
+                      "there is no member \"" + key.substr(0, 40) + "\"; there are " + list);
+  }
+  return {};
+}
+
 LineCommand said(std::string line) {
   LineCommand command;
   command.text = line;
@@ -106,6 +134,9 @@ Result<LineCommand> command_of(const Json& object, std::string line, bool json) 
   const Result<Do> wanted = value_of("do", *what, kDos);
   if (!wanted) return wanted.error();
   command.what = *wanted;
+  if (!json || command.what != Do::say) {
+    if (auto ok = check_members(object, command.what); !ok) return ok.error();
+  }
   if (!when->empty()) {
     const Result<When> place = value_of("when", *when, kWhens);
     if (!place) return place.error();
@@ -127,6 +158,12 @@ Result<LineCommand> command_of(const Json& object, std::string line, bool json) 
                       "there is no mood; put its name into \"mood\": joy, neutral ...");
   }
   if (command.what != Do::say) return command;
+  if (!json) {
+    const char* const name = object.contains("lang") ? "lang" : "language";
+    Result<std::string> language = text_of(object, name);
+    if (!language) return language.error();
+    command.language = std::move(*language);
+  }
   command.text = std::move(*text);
   command.payload = json ? std::move(line) : command.text;
   if (command.payload.find_first_not_of(" \t\r\n") == std::string::npos) {

@@ -10,8 +10,9 @@
 ///     {"do": "listen"}, "think", "idle"                       what the face does between lines
 ///     {"do": "end"}                                           end when everything is spoken
 ///
-/// Lines to say may have a "mood" of their own: "joy", "joy:0.6" or {"name": "joy", "intensity":
-/// 0.6}; names are those of dam::read_mood().
+/// Lines to say may have a "lang" ("de", "en-gb+f3") in place of that of the head, and a "mood" of
+/// their own: "joy", "joy:0.6" or {"name": "joy", "intensity": 0.6}; names are those of
+/// dam::read_mood().
 #pragma once
 
 #include <cstdint>
@@ -40,6 +41,7 @@ struct LineCommand {
   std::string id;          ///< say, mark: as given; empty: none
   std::string text;        ///< say: the words, if known
   std::string payload;     ///< say: input of LineMaker::make
+  std::string language;    ///< say: of the text; empty: that of the head
   /// say: of the line, nullopt: that of the head; mood: given
   std::optional<dam::Mood> mood;
   dam::Look target;  ///< look: the target
@@ -53,7 +55,8 @@ inline constexpr std::size_t kMostCommand = std::size_t(1) << 20;
 /// piece with "do": "say" has a position in the queue. If lines are text, one that begins with {
 /// and is not a command remains text, unless it is broken JSON with a "do" in it. Errors: syntax
 /// (broken JSON, a member of a wrong type), not_found (unknown "do", "when" or mood),
-/// invalid_argument (nothing to say, no target, an intensity out of range), those of
+/// invalid_argument (nothing to say, no target, an intensity out of range; a member that the
+/// command does not have, except among pieces, where "say" has those of a piece), those of
 /// dam::parse_look().
 Result<LineCommand> read_line(std::string line, bool json);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -12,20 +13,36 @@
 
 namespace animeme::speech {
 
+/// Where a text of more than `most` bytes is cut: behind its last sentence, else at its last blank,
+/// else in front of a character.
+inline std::size_t place_of_cut(std::string_view text, std::size_t most) {
+  constexpr std::string_view kEnds[] = {". ", "! ", "? ", "\n", "\u3002", "\uFF01", "\uFF1F"};
+  std::size_t end = 0;
+  for (const std::string_view sign : kEnds) {
+    const std::size_t found = text.substr(0, most).rfind(sign);
+    if (found != std::string_view::npos) end = std::max(end, found + sign.size());
+  }
+  if (end > most / 4) return end;
+  const std::size_t blank = text.rfind(' ', most);
+  if (blank != std::string_view::npos && blank > 0) return blank;
+  end = most;
+  while (end > 1 && (std::uint8_t(text[end]) & 0xC0U) == 0x80U) --end;
+  return end;
+}
+
 /// Leaves at most `most` bytes of a text; what stands before goes to `lines`.
 inline void cut_at_blanks(std::string& text, std::size_t most, std::vector<std::string>& lines) {
   while (text.size() > most) {
-    const std::size_t blank = text.rfind(' ', most);
-    const std::size_t end = blank == std::string::npos || blank == 0 ? most : blank;
+    const std::size_t end = place_of_cut(text, most);
     lines.emplace_back(media::trim(text.substr(0, end)));
     text.erase(0, end);
   }
 }
 
 /// Cuts lines out of bytes as they come, without the blanks around them. What waits is never more
-/// than `most` bytes: a line that is longer is cut at its last blank before that; or, without
-/// `cut`, its first `most` + 1 bytes stand for it and the rest is dropped. With `cut`, one that
-/// begins with { may be a command and is treated so, too, with kMostCommand.
+/// than `most` bytes: a line that is longer is cut behind a sentence or at a blank before that; or,
+/// without `cut`, its first `most` + 1 bytes stand for it and the rest is dropped. With `cut`, one
+/// that begins with { may be a command and is treated so, too, with kMostCommand.
 class LineCutter {
  public:
   LineCutter(std::size_t most, bool cut) : most_(most), cut_(cut) {}

@@ -58,15 +58,29 @@ void LineEvents::add(LineEvent event) {
 }
 
 void LineEvents::begin(const SpokenLine& line, double start, double end) {
-  Begun begun{.line = line.line, .id = line.id, .end = end, .words = {}};
+  const std::uint64_t number = line.whole > 0 ? line.whole : line.line;
+  Begun begun{.line = number,
+              .id = line.id,
+              .start = start,
+              .end = end,
+              .words = {},
+              .part = line.whole > 0};
   const auto event = [&](What what, double time, const std::string& text, double seconds) {
-    LineEvent one{.what = what, .time = time, .line = line.line, .id = line.id, .text = text};
+    LineEvent one{.what = what, .time = time, .line = number, .id = line.id, .text = text};
     one.duration = seconds;
     add(std::move(one));
   };
-  event(What::started, start, line.text, 0);
+  if (line.first_part) event(What::started, start, line.text, 0);
   const dam::Script& script = line.speech.script;
-  const std::vector<dam::ScriptWord> words = dam::words_of(script);
+  const bool own_words = line.words.has_value();
+  const std::vector<dam::ScriptWord> words =
+      own_words ? std::vector<dam::ScriptWord>{} : dam::words_of(script);
+  if (own_words) {
+    for (const dam::ScriptWord& one : *line.words) {
+      event(What::word, start + one.start, one.text, one.end - one.start);
+      begun.words.emplace_back(start + one.start, one.text);
+    }
+  }
   auto word = words.begin();
   for (std::size_t i = 0; i < script.phones.size(); ++i) {
     const dam::Phone& phone = script.phones[i];
@@ -76,13 +90,15 @@ void LineEvents::begin(const SpokenLine& line, double start, double end) {
       begun.words.emplace_back(time, word->text);
       ++word;
     }
-    if (phone.label == dam::kSilence) continue;
+    if (phone.label == dam::kSilence || (i == 0 && line.goes_on)) continue;
     event(What::phone, time, phone.label, phone.duration());
   }
   for (const voice::SpeechMark& mark : line.speech.marks) {
     event(What::mark, start + mark.time, mark.name, 0);
   }
-  event(What::done, end, {}, 0);
+  if (line.last_part && !(begun.part && ended_parts_.contains(number))) {
+    event(What::done, end, {}, 0);
+  }
   begun_.push_back(std::move(begun));
 }
 
@@ -105,6 +121,7 @@ void LineEvents::cut(double time, std::uint64_t before, const std::string& why) 
     for (const auto& [start, word] : begun.words) {
       if (start <= time) event.text += (event.text.empty() ? "" : " ") + word;
     }
+    if (begun.part && !ended_parts_.insert(begun.line).second) continue;
     cancelled.push_back(std::move(event));
   }
   std::erase_if(begun_, [&](const Begun& begun) { return begun.line < before; });
@@ -114,7 +131,25 @@ void LineEvents::cut(double time, std::uint64_t before, const std::string& why) 
   }
 }
 
+void LineEvents::cancel_parts(LineEvent event) {
+  if (ended_parts_.insert(event.line).second) add(std::move(event));
+}
+
+void LineEvents::add_word(std::uint64_t line, double start, const std::string& word,
+                          double duration) {
+  const auto begun = std::find_if(begun_.begin(), begun_.end(),
+                                  [line](const Begun& one) { return one.line == line; });
+  if (begun == begun_.end()) return;
+  const double time = std::max(begun->start + start, time_);
+  if (time >= begun->end) return;  // all of it has been told
+  LineEvent event{.what = What::word, .time = time, .line = line, .id = begun->id, .text = word};
+  event.duration = duration;
+  add(std::move(event));
+  begun->words.emplace_back(time, word);
+}
+
 void LineEvents::tell(double time) {
+  time_ = std::max(time_, time);
   while (!waiting_.empty() && waiting_.front().time <= time) {
     told_.push_back(std::move(waiting_.front()));
     waiting_.pop_front();

@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -57,9 +58,15 @@ class LineEvents {
   /// Adds the events of a line: its words and phones, and its end. Times of its script count from
   /// `start`.
   void begin(const SpokenLine& line, double start, double end);
+  /// Adds a word of a line that has begun and not ended, `start` seconds after its begin, or as
+  /// soon as possible.
+  void add_word(std::uint64_t line, double start, const std::string& word, double duration);
   /// Cancels all lines before number `before` that have begun and not ended at `time`, and their
   /// marks.
   void cut(double time, std::uint64_t before, const std::string& why);
+  /// Adds the end of a text that is spoken in parts, unless it has ended. Its number is that of its
+  /// first part.
+  void cancel_parts(LineEvent event);
   /// Releases events up to and including `time`.
   void tell(double time);
   /// Events released since the last call.
@@ -69,12 +76,15 @@ class LineEvents {
   struct Begun {
     std::uint64_t line = 0;
     std::string id;
-    double end = 0;
+    double start = 0, end = 0;
     std::vector<std::pair<double, std::string>> words;
+    bool part = false;
   };
   std::deque<LineEvent> waiting_;  // ascending
   std::deque<Begun> begun_;
+  double time_ = 0;  // of the last tell()
   std::vector<LineEvent> told_;
+  std::set<std::uint64_t> ended_parts_;  // texts in parts that were cancelled
 };
 
 }  // namespace animeme::speech

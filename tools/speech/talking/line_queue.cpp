@@ -1,9 +1,11 @@
 #include "tools/speech/talking/line_queue.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "tools/speech/talking/line_cutter_internal.h"
+#include "tools/speech/talking/pieces.h"
 #include "tools/speech/voice/pitch.h"
 
 namespace animeme::speech {
@@ -14,7 +16,9 @@ constexpr std::size_t kMostMade = 4;  // lines that are made and wait: a voice i
 constexpr std::size_t kMostKept = 8;  // such lines when others are put before them
 constexpr std::size_t kQueueBytes = std::size_t(64) << 20;
 constexpr std::size_t kQueueLines = 100000;
-constexpr std::size_t kShown = 60;  // bytes of a line that is left out
+constexpr std::size_t kMostGone = 4;  // pieces that were taken and may get words
+constexpr double kSameWord = 0.05;    // seconds
+constexpr std::size_t kShown = 60;    // bytes of a line that is left out
 
 // As much of a text as a message shows; no half of a letter.
 std::string beginning(const std::string& text) {
@@ -105,33 +109,111 @@ void LineQueue::say(LineCommand command, double arrived) {
   if (command.when == LineCommand::When::now) {
     forget_all(LineNews::What::stopped, "stopped", arrived);
   }
-  // A text that is too long is spoken in parts, which have names of their own.
+  // A text that is too long is spoken in parts: lines of their own, or one line if it has a name.
   std::vector<std::string> parts;
-  if (cut_ && command.id.empty()) cut_at_blanks(command.payload, most_bytes_, parts);
+  if (cut_) cut_at_blanks(command.payload, most_bytes_, parts);
   parts.emplace_back(media::trim(command.payload));
   // What is to be next follows the marks of what is spoken now.
   auto place = entries_.end();
   if (command.when == LineCommand::When::next) {
     place = std::find_if(entries_.begin(), entries_.end(), [](const Entry& e) { return !e.mark; });
   }
+  const std::uint64_t whole = parts.size() > 1 && !command.id.empty() ? number_ : 0;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (i > 0) ++number_;
     Entry entry{.line = number_, .id = command.id, .arrived = arrived};
     if (entry.id.empty()) entry.id = std::to_string(number_);
     entry.mood = command.mood;
-    entry.text = parts.size() > 1 ? parts[i] : command.text;
+    entry.language = command.language;
+    entry.whole = whole;
+    entry.first_part = whole == 0 || i == 0;
+    entry.last_part = whole == 0 || i + 1 == parts.size();
+    entry.text = parts.size() > 1 && whole == 0 ? parts[i] : command.text;
     entry.payload = std::move(parts[i]);
-    tell(LineNews::What::queued, entry, {}, arrived);
-    if (entry.payload.size() > most_bytes_) {
+    entry.bytes = entry.payload.size();
+    const bool fits = entry.payload.size() <= most_bytes_;
+    if (pieces_ && fits && !add_piece(entry)) continue;
+    if (entry.first_part) tell(LineNews::What::queued, entry, {}, arrived);
+    if (!fits) {
       const std::string why =
           "it has more than " + std::to_string(most_bytes_) + " bytes; send shorter pieces";
       warnings_.push_back(name_of(number_, entry.payload) + ", is left out: " + why);
       tell(LineNews::What::cancelled, entry, why, arrived);
       continue;
     }
-    bytes_ += entry.payload.size();
+    bytes_ += entry.bytes;
     entries_.insert(place, std::move(entry));
   }
+}
+
+// False: nothing of it waits to be spoken.
+bool LineQueue::add_piece(Entry& entry) {
+  const Result<PieceStream::Taken> taken = pieces_->add(entry.payload);
+  const std::string name = name_of(entry.line, entry.text.empty() ? entry.payload : entry.text);
+  if (!taken) {
+    const std::string why = taken.error().describe();
+    warnings_.push_back(name + ", is left out: " + why);
+    tell(LineNews::What::queued, entry, {}, entry.arrived);
+    tell(LineNews::What::cancelled, entry, why, entry.arrived);
+    return false;
+  }
+  if (!taken->warning.empty()) warnings_.push_back(name + ": " + taken->warning);
+  if (taken->utterance != 0) improve(taken->utterance);
+  if (taken->key == 0) return false;
+  entry.piece = taken->key;
+  entry.utterance = taken->utterance;
+  if (entry.text.empty()) entry.text = taken->text;
+  entry.payload.clear();
+  return true;
+}
+
+// More is known about an utterance.
+void LineQueue::improve(std::uint64_t utterance) {
+  for (Entry& entry : entries_) {
+    if (entry.utterance != utterance || !entry.speech || !entry.speech->improvable) continue;
+    if (pieces_->may_improve(entry.piece)) entry.stale = true;
+  }
+  for (Gone& gone : gone_) {
+    gone.stale |= gone.utterance == utterance && pieces_->times_came(gone.piece);
+  }
+}
+
+// Its words may still be told in time.
+void LineQueue::keep_in_mind(const Entry& entry, const SpokenLine& line) {
+  gone_.push_back({entry.line, entry.piece, entry.utterance, line.id, *line.words, false});
+  if (gone_.size() <= kMostGone) return;
+  pieces_->forget(gone_.front().piece);
+  gone_.pop_front();
+}
+
+// Of a piece that was taken.
+void LineQueue::tell_words(std::uint64_t line, const Result<SpokenLine>& speech) {
+  const auto gone = std::find_if(gone_.begin(), gone_.end(),
+                                 [line](const Gone& one) { return one.line == line; });
+  if (gone == gone_.end()) return;
+  gone->stale = false;
+  if (!speech || !speech->words) return;
+  for (const dam::ScriptWord& word : *speech->words) {
+    const bool known = std::any_of(gone->told.begin(), gone->told.end(), [&](const auto& told) {
+      return told.text == word.text && std::abs(told.start - word.start) < kSameWord;
+    });
+    if (known) continue;
+    gone->told.push_back(word);
+    LineNews news;
+    news.what = LineNews::What::word;
+    news.line = line;
+    news.id = gone->id;
+    news.text = word.text;
+    news.start = word.start;
+    news.duration = word.end - word.start;
+    news_.push_back(std::move(news));
+  }
+}
+
+void LineQueue::forget(const Entry& entry) {
+  bytes_ -= entry.bytes;
+  if (entry.speech) --made_;
+  if (entry.piece != 0) pieces_->forget(entry.piece);
 }
 
 void LineQueue::forget_all(LineNews::What what, const std::string& why, double at) {
@@ -140,15 +222,20 @@ void LineQueue::forget_all(LineNews::What what, const std::string& why, double a
   news.line = number_;
   news.at = at;
   news_.push_back(std::move(news));
-  for (const Entry& entry : entries_) tell(LineNews::What::cancelled, entry, why, at);
+  for (const Entry& entry : entries_) {
+    tell(LineNews::What::cancelled, entry, why, at);
+    forget(entry);
+  }
   entries_.clear();
-  bytes_ = made_ = 0;
+  for (const Gone& gone : gone_) pieces_->forget(gone.piece);
+  gone_.clear();
 }
 
 void LineQueue::tell(LineNews::What what, const Entry& entry, const std::string& why, double at) {
   LineNews news;
   news.what = what;
-  news.line = entry.line;
+  news.line = entry.whole > 0 ? entry.whole : entry.line;
+  news.part = entry.whole > 0;
   news.id = entry.id;
   news.text = entry.text;
   news.mark = entry.mark;
@@ -178,10 +265,15 @@ std::size_t LineQueue::bytes() {
 }
 
 std::optional<LineQueue::Job> LineQueue::look_for_job() {
+  for (const Gone& gone : gone_) {
+    if (gone.stale) return Job{gone.line, {}, gone.piece, {}, true};
+  }
   std::size_t ahead = 0;
   for (const Entry& entry : entries_) {
     if (entry.mark) continue;
-    if (!entry.speech) return Job{entry.line, entry.payload};
+    if (!entry.speech || entry.stale) {
+      return Job{entry.line, entry.payload, entry.piece, entry.language, false};
+    }
     if (++ahead == kMostMade) break;
   }
   return std::nullopt;
@@ -216,13 +308,16 @@ void LineQueue::made(std::uint64_t line, Result<SpokenLine> speech, double spoke
   if (speech) speech->prosody = voice::measure_prosody(speech->speech.audio);
   const std::lock_guard lock(mutex_);
   const auto entry = find(line);
-  if (entry == entries_.end()) return;
+  if (entry == entries_.end()) {
+    tell_words(line, speech);
+    return;
+  }
   const std::string name = name_of(line, entry->text.empty() ? entry->payload : entry->text);
   if (!speech) {
     const std::string why = speech.error().describe();
     warnings_.push_back(name + ", is left out: " + why);
     tell(LineNews::What::cancelled, *entry, why, spoken);
-    bytes_ -= entry->payload.size();
+    forget(*entry);
     entries_.erase(entry);
     return;
   }
@@ -233,12 +328,20 @@ void LineQueue::made(std::uint64_t line, Result<SpokenLine> speech, double spoke
   if (!entry->text.empty()) speech->text = entry->text;
   speech->arrived = entry->arrived;
   speech->spoken = spoken;
+  speech->whole = entry->whole;
+  speech->first_part = entry->first_part;
+  speech->last_part = entry->last_part;
+  const bool again = entry->speech.has_value();
   entry->speech = std::move(*speech);
+  entry->stale = false;
+  if (again) return;
   // Where many are put before others, the last ones are made again when their turn comes.
   if (++made_ <= kMostKept) return;
   std::size_t count = 0;
   for (Entry& one : entries_) {
-    if (one.speech && ++count > kMostKept) one.speech.reset();
+    if (!one.speech || ++count <= kMostKept) continue;
+    one.speech.reset();
+    one.stale = false;
   }
   made_ = std::min(made_, kMostKept);
 }
@@ -263,13 +366,24 @@ std::optional<SpokenLine> LineQueue::take(bool only_joining) {
     line.arrived = first.arrived;
   } else {
     if (!first.speech || (only_joining && !first.speech->joins)) return std::nullopt;
+    const bool may_get_words = first.speech->words && first.piece != 0;
+    if (may_get_words) keep_in_mind(first, *first.speech);
+    if (may_get_words) first.piece = 0;  // not forgotten yet
+    forget(first);
     line = std::move(*first.speech);
-    bytes_ -= first.payload.size();
-    --made_;
   }
   entries_.pop_front();
   changed_.notify_all();
   return line;
+}
+
+std::optional<double> LineQueue::improvable_since() {
+  const std::lock_guard lock(mutex_);
+  if (closed_ || entries_.empty() || entries_.front().mark) return std::nullopt;
+  const Entry& first = entries_.front();
+  if (first.stale) return first.arrived;
+  if (!first.speech || !first.speech->improvable) return std::nullopt;
+  return first.arrived;
 }
 
 std::vector<LineNews> LineQueue::take_news() {
@@ -284,10 +398,25 @@ bool LineQueue::ended() {
 
 void LineQueue::abandon(const std::string& why) {
   const std::lock_guard lock(mutex_);
-  for (const Entry& entry : entries_) tell(LineNews::What::cancelled, entry, why, entry.arrived);
+  for (const Entry& entry : entries_) {
+    tell(LineNews::What::cancelled, entry, why, entry.arrived);
+    forget(entry);
+  }
   entries_.clear();
-  bytes_ = made_ = 0;
   closed_ = true;
+}
+
+Result<SpokenLine> make_line(const LineMaker& maker, LineQueue::Job job, const Wanted& wanted) {
+  if (job.piece != 0) {
+    return job.words ? maker.pieces->words(job.piece) : maker.pieces->make(job.piece);
+  }
+  if (job.language.empty()) return maker.make(std::move(job.payload), wanted);
+  if (maker.make_in) return maker.make_in(std::move(job.payload), job.language, wanted);
+  Result<SpokenLine> line = maker.make(std::move(job.payload), wanted);
+  if (line) {
+    line->doubt += (line->doubt.empty() ? "" : "; ") + std::string("its language is not used");
+  }
+  return line;
 }
 
 std::vector<std::string> LineQueue::take_warnings() {

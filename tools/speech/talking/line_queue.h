@@ -7,10 +7,13 @@
 
 #include <condition_variable>
 #include <cstdint>
+#include <deque>
 #include <list>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fap/result.h"
@@ -22,9 +25,10 @@ namespace animeme::speech {
 /// Thread safe.
 class LineQueue : public LineSource {
  public:
-  /// `most_bytes`, `cut`, `json`: as LineMaker.
-  LineQueue(std::size_t most_bytes, bool cut, bool json)
-      : most_bytes_(most_bytes), cut_(cut), json_(json) {}
+  /// `most_bytes`, `cut`, `json`, `pieces`: as LineMaker.
+  LineQueue(std::size_t most_bytes, bool cut, bool json,
+            std::shared_ptr<PieceStream> pieces = nullptr)
+      : most_bytes_(most_bytes), cut_(cut), json_(json), pieces_(std::move(pieces)) {}
 
   /// Adds a line of the input without surrounding blanks; ignores empty lines. Errors: those of
   /// read_line(), which are also warnings (take_warnings()).
@@ -38,8 +42,11 @@ class LineQueue : public LineSource {
 
   /// A line to synthesise.
   struct Job {
-    std::uint64_t line = 0;  ///< its number
-    std::string payload;     ///< LineCommand::payload
+    std::uint64_t line = 0;   ///< its number
+    std::string payload;      ///< LineCommand::payload
+    std::uint64_t piece = 0;  ///< in place of the payload: for PieceStream::make(); 0: none
+    std::string language;     ///< LineCommand::language
+    bool words = false;       ///< only PieceStream::words() are wanted
   };
   /// The next line to synthesise, in the order in which they will be spoken. Waits while four
   /// synthesised lines are queued before it. nullopt: leave() was called.
@@ -54,6 +61,7 @@ class LineQueue : public LineSource {
   void leave();
 
   std::optional<SpokenLine> take(bool only_joining) override;
+  std::optional<double> improvable_since() override;
   std::vector<LineNews> take_news() override;
   bool ended() override;
   void abandon(const std::string& why) override;
@@ -64,15 +72,32 @@ class LineQueue : public LineSource {
  private:
   struct Entry {
     std::uint64_t line = 0;
-    std::string id, text, payload;
+    std::string id, text, payload, language;
     double arrived = 0;
     bool mark = false;
+    std::size_t bytes = 0;                   // of what came
+    std::uint64_t piece = 0, utterance = 0;  // of the PieceStream
+    bool stale = false;                      // to be made again; `speech` is there until then
+    std::uint64_t whole = 0;                 // as SpokenLine
+    bool first_part = true, last_part = true;
     std::optional<dam::Mood> mood;
     std::optional<SpokenLine> speech;  // nothing: not made
   };
   using Entries = std::list<Entry>;
+  // A piece that was taken, of which more may become known.
+  struct Gone {
+    std::uint64_t line = 0, piece = 0, utterance = 0;
+    std::string id;
+    std::vector<dam::ScriptWord> told;
+    bool stale = false;
+  };
 
   void say(LineCommand command, double arrived);
+  bool add_piece(Entry& entry);
+  void improve(std::uint64_t utterance);
+  void forget(const Entry& entry);
+  void keep_in_mind(const Entry& entry, const SpokenLine& line);
+  void tell_words(std::uint64_t line, const Result<SpokenLine>& speech);
   void forget_all(LineNews::What what, const std::string& why, double at);
   Entries::iterator find(std::uint64_t line);
   std::optional<Job> look_for_job();
@@ -80,10 +105,12 @@ class LineQueue : public LineSource {
 
   const std::size_t most_bytes_;
   const bool cut_, json_;
+  const std::shared_ptr<PieceStream> pieces_;
 
   std::mutex mutex_;  // guards what follows
   std::condition_variable changed_;
   Entries entries_;
+  std::deque<Gone> gone_;
   std::size_t bytes_ = 0;  // of payloads
   std::size_t made_ = 0;   // entries with speech
   std::uint64_t number_ = 0;
@@ -91,5 +118,9 @@ class LineQueue : public LineSource {
   std::vector<std::string> warnings_;
   bool closed_ = false, left_ = false;
 };
+
+/// The speech of a job: LineMaker::make, make_in or pieces. A language that the maker does not have
+/// is a doubt.
+Result<SpokenLine> make_line(const LineMaker& maker, LineQueue::Job job, const Wanted& wanted);
 
 }  // namespace animeme::speech

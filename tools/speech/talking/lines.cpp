@@ -23,6 +23,14 @@ namespace {
 
 constexpr int kFullMs = 50;  // then a full queue is looked at again
 
+// The voice keeps its variant ("+f3") in another language, unless that names one.
+std::string language_of_line(const std::string& usual, const std::string& wanted) {
+  if (wanted.empty()) return usual;
+  const std::size_t variant = usual.find('+');
+  if (variant == std::string::npos || wanted.find('+') != std::string::npos) return wanted;
+  return wanted + usual.substr(variant);
+}
+
 }  // namespace
 
 struct VoiceLines::Impl {
@@ -39,7 +47,9 @@ struct VoiceLines::Impl {
   std::thread reader, voice;  // last: they use all of the above
 
   Impl(LineMaker making, media::Clock& time)
-      : maker(std::move(making)), clock(&time), queue(maker.most_bytes, maker.cut, maker.json) {}
+      : maker(std::move(making)),
+        clock(&time),
+        queue(maker.most_bytes, maker.cut, maker.json, maker.pieces) {}
   ~Impl() {
     queue.leave();
     if (wake[1] >= 0) ::close(wake[1]);
@@ -63,7 +73,7 @@ struct VoiceLines::Impl {
     while (auto job = queue.next_job()) {
       const std::uint64_t line = job->line;
       const Wanted wanted = [this, line] { return queue.wanted(line); };
-      Result<SpokenLine> speech = maker.make(std::move(job->payload), wanted);
+      Result<SpokenLine> speech = make_line(maker, std::move(*job), wanted);
       queue.made(line, std::move(speech), clock->now());
     }
   }
@@ -116,19 +126,25 @@ Result<LineMaker> voice_lines(const voice::VoiceOptions& options, bool speak_mar
   if (!probe) return probe.error();
   LineMaker maker;
   maker.sample_rate = probe->audio.sample_rate;
-  maker.make = [options, speak_marks](std::string line, const Wanted&) -> Result<SpokenLine> {
+  maker.make_in = [options, speak_marks](std::string line, const std::string& language,
+                                         const Wanted&) -> Result<SpokenLine> {
+    voice::VoiceOptions how = options;
+    how.language = language_of_line(options.language, language);
     SpokenLine spoken;
     const auto doubt = [&spoken](const std::string& warning) {
       spoken.doubt += (spoken.doubt.empty() ? "" : "; ") + warning;
     };
     tools::Log log;
     log.warn = doubt;
-    Result<voice::Speech> speech = voice::speak_text(text_to_say(line, speak_marks, log), options);
+    Result<voice::Speech> speech = voice::speak_text(text_to_say(line, speak_marks, log), how);
     if (!speech) return speech.error();
     spoken.text = std::move(line);
     for (const std::string& warning : speech->warnings) doubt(warning);
     spoken.speech = std::move(*speech);
     return spoken;
+  };
+  maker.make = [make = maker.make_in](std::string line, const Wanted& wanted) {
+    return make(std::move(line), {}, wanted);
   };
   return maker;
 }
@@ -154,6 +170,8 @@ Result<std::unique_ptr<VoiceLines>> VoiceLines::open(int descriptor, LineMaker m
 std::optional<SpokenLine> VoiceLines::take(bool only_joining) {
   return impl_->queue.take(only_joining);
 }
+
+std::optional<double> VoiceLines::improvable_since() { return impl_->queue.improvable_since(); }
 
 std::vector<LineNews> VoiceLines::take_news() { return impl_->queue.take_news(); }
 

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "dam/behaviour/behaviour.h"
+#include "dam/script/words.h"
 #include "fap/result.h"
 #include "tools/formats/media/live/pacer.h"
 #include "tools/speech/voice/voice.h"
@@ -39,6 +40,15 @@ struct SpokenLine {
   std::string id;          ///< the given name, or else its number
   bool mark = false;       ///< a mark in the queue without speech, named `id`
   std::optional<dam::Mood> mood;  ///< of the whole line; nullopt: that of the head
+  /// Words to report, whose times count as those of the script; nullopt: those of the script.
+  std::optional<std::vector<dam::ScriptWord>> words;
+  bool goes_on = false;     ///< its first phone is the rest of the last one of the line before
+  bool improvable = false;  ///< it may be made better when more is known (pieces.h)
+  /// Of a long text that is spoken in parts: number of its first part, whose events all of them
+  /// report; 0: it is no part.
+  std::uint64_t whole = 0;
+  bool first_part = true;  ///< it begins the text
+  bool last_part = true;   ///< it ends the text
 };
 
 /// News of a line in the queue.
@@ -52,6 +62,7 @@ struct LineNews {
     mood,       ///< the head has another mood: `mood`
     look,       ///< the eyes look at `target`
     activity,   ///< what the face does between lines: `activity`
+    word,       ///< a word of a line that take() has returned became known: `text`, `start`
   };
   What what = What::queued;                      ///< kind
   std::uint64_t line = 0;                        ///< SpokenLine::line
@@ -59,24 +70,35 @@ struct LineNews {
   std::string text;                              ///< the text
   std::string why;                               ///< a few words
   bool mark = false;                             ///< it is a mark
+  bool part = false;                             ///< it is a part of a text, named `line`
   dam::Mood mood;                                ///< a mood
   dam::Look target;                              ///< of the eyes
   dam::Activity activity = dam::Activity::idle;  ///< between lines
   double at = 0;                                 ///< instant on the clock of the lines
+  double start = 0;     ///< word: seconds from the begin of the line's sound
+  double duration = 0;  ///< word: seconds
 };
 
 /// Returns whether the speech of a line is still needed.
 using Wanted = std::function<bool()>;
+
+class PieceStream;
 
 /// Synthesises lines.
 struct LineMaker {
   /// Called in the voice thread. Sets sound, phones, `joins` and `doubt`, and `text` if it alone
   /// knows the text. An error skips the line. May stop early if `wanted` returns false.
   std::function<Result<SpokenLine>(std::string line, const Wanted& wanted)> make;
-  int sample_rate = 22050;        ///< Hz; other rates of lines are converted
-  std::size_t most_bytes = 4000;  ///< maximum size of a line
-  bool cut = true;                ///< longer lines are cut at a blank; false: skipped
-  bool json = false;              ///< lines are pieces (pieces.h), not text
+  /// The same for a line in another language, a code as those of voice::VoiceOptions. Empty: there
+  /// is one language.
+  std::function<Result<SpokenLine>(std::string line, const std::string& language,
+                                   const Wanted& wanted)>
+      make_in = nullptr;
+  int sample_rate = 22050;              ///< Hz; other rates of lines are converted
+  std::size_t most_bytes = 4000;        ///< maximum size of a line
+  bool cut = true;                      ///< longer lines are cut behind a sentence; false: skipped
+  bool json = false;                    ///< lines are pieces (pieces.h), not text
+  std::shared_ptr<PieceStream> pieces;  ///< makes them, in place of `make`; null: none
 };
 
 /// Speaks each line. Synthesises something once, so that a missing voice is detected immediately
@@ -91,6 +113,8 @@ class LineSource {
   /// The next line or mark, if ready. Does not wait. `only_joining`: only a line that joins the
   /// previous one.
   virtual std::optional<SpokenLine> take(bool only_joining) = 0;
+  /// When the next line arrived, if it would be better if it were taken later (pieces.h).
+  virtual std::optional<double> improvable_since() { return std::nullopt; }
   /// News since the last call, in order. Lines that take() has already returned are referred to by
   /// number.
   virtual std::vector<LineNews> take_news() { return {}; }
@@ -116,6 +140,7 @@ class VoiceLines : public LineSource {
   ~VoiceLines() override;
 
   std::optional<SpokenLine> take(bool only_joining) override;
+  std::optional<double> improvable_since() override;
   std::vector<LineNews> take_news() override;
   bool ended() override;
   void abandon(const std::string& why) override;

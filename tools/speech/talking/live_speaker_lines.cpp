@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kOpening = 0.1;     // seconds in which the mouth opens before sound that is late
 constexpr double kLead = 0.5;        // seconds before its sound in which a piece bears on the mouth
+constexpr double kLeastLead = 0.1;   // likewise, where more may be known of it until then
+constexpr double kPatience = 0.1;    // seconds that a piece behind a pause waits for the same
 constexpr float kAudible = 0.003F;   // of full scale
 constexpr double kSoundFade = 0.02;  // seconds, of sound that is cut off
 constexpr double kSettling = 0.2;    // seconds from there on until all is at rest
@@ -40,6 +42,12 @@ void LiveSpeaker::Impl::take_line() {
   if (waiting || face.closing()) return;
   const bool speaking = face.speaking();
   if (speaking && end_of_speech() >= frame_due() + kLead) return;
+  // What is not known yet may come before it is too late.
+  if (const auto since = lines->improvable_since()) {
+    const double lead = speaking ? end_of_speech() - frame_due() : 0;
+    if (lead >= kLeastLead) return;
+    if (lead <= 0 && clock->now() < *since + kPatience) return;
+  }
   while (auto line = lines->take(speaking)) {
     if (line->mark) {
       LineEvent mark{.what = LineEvent::What::mark, .time = end_of_speech(), .id = {}};
@@ -64,7 +72,16 @@ void LiveSpeaker::Impl::follow(const LineNews& news, double time) {
       event.what = LineEvent::What::cancelled;
       event.why = news.why;
       if (news.mark) event.line = 0;
-      break;
+      if (!news.part) break;
+      events.cancel_parts(std::move(event));
+      return;
+    case LineNews::What::word:
+      if (waiting && waiting->line.line == news.line && waiting->line.words) {
+        waiting->line.words->push_back({news.start, news.start + news.duration, news.text});
+      } else {
+        events.add_word(news.line, news.start, news.text, news.duration);
+      }
+      return;
     case LineNews::What::look:
       face.look(news.target);
       return;
@@ -93,7 +110,9 @@ void LiveSpeaker::Impl::cancel(const SpokenLine& line, const std::string& why) {
   LineEvent event{.what = LineEvent::What::cancelled, .time = frame_due(), .line = line.line};
   event.id = line.id;
   event.why = why;
-  events.add(std::move(event));
+  if (line.whole == 0) return events.add(std::move(event));
+  event.line = line.whole;
+  events.cancel_parts(std::move(event));
 }
 
 // The next frame is the first in which the mouth closes.
@@ -179,7 +198,13 @@ Result<void> LiveSpeaker::Impl::begin(SpokenLine& line, LineTrace& trace) {
     // as within a sentence.
     start = place_after_the_last();
     const double wait = std::max(double(start) / options.voice_rate - frame_due(), 0.0);
-    shown = face.join(script, wait, moods, &line.prosody);
+    shown = face.join(script, wait, moods, &line.prosody, line.goes_on);
+    if (!shown && !line.speech.audio.samples.empty()) {
+      // Sound is heard in any case.
+      warnings.push_back("the face rests: " + shown.error().message);
+      const double seconds = line.speech.audio.duration();
+      shown = face.join({{{0, seconds, std::string(dam::kSilence), {}}}}, wait);
+    }
   } else {
     start = std::llround(frame_due() * options.voice_rate);
     shown = face.say(script, moods, &line.prosody);

@@ -1,191 +1,507 @@
 #include "tools/speech/talking/pieces.h"
 
 #include <algorithm>
-#include <bit>
-#include <cctype>
+#include <cmath>
 #include <cstring>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <optional>
 #include <utility>
 
-#include "tools/formats/common/json.h"
-#include "tools/formats/files/base64.h"
 #include "tools/formats/media/audio.h"
 #include "tools/formats/scripts/script_text.h"
-#include "tools/speech/talking/json_line_internal.h"
+#include "tools/speech/talking/piece_message_internal.h"
+#include "tools/speech/talking/sound_coding.h"
+#include "tools/speech/talking/sound_ear.h"
+#include "tools/speech/talking/utterance_times.h"
 #include "tools/speech/talking/written_text.h"
+#include "tools/speech/text/mood_marks.h"
+#include "tools/speech/text/ssml.h"
 
 namespace animeme::speech {
 
 namespace {
 
-using tools::Json;
+using From = PieceMessage::From;
 
-constexpr int kPieceRate = 48000;  // Hz of the sound that is sent
+constexpr int kPieceRate = 48000;    // Hz of the sound that is sent
+constexpr double kBorder = 0.02;     // seconds of sound around a piece that its rate change hears
+constexpr double kOldSound = 1;      // seconds of sound that are kept behind what is spoken
+constexpr double kAfterSound = 0.3;  // seconds: times that end later than their sound are told of
+constexpr double kTimely = 0.05;  // seconds: times are those of a piece that begins so much later
+constexpr double kKnown = 0.05;   // seconds: a piece whose times end so early has them all
+constexpr std::size_t kMostUtterances = 64;  // that are kept when all of them has been spoken
+constexpr double kLeastAligned = 0.25;       // seconds of sound
+constexpr double kMostLetters = 25;          // of a text, for each second of its sound
 
-// "audioContent" and "audio_content" are one name.
-std::string plain(std::string_view name) {
-  std::string out;
-  for (const char c : name) {
-    if (c != '_') out += char(std::tolower(static_cast<unsigned char>(c)));
-  }
-  return out;
+// Times as they came.
+struct Labels {
+  std::string text;
+  double piece = 0;    // where the sound begins that they came with
+  double length = 0;   // of that sound; 0: they came alone
+  bool given = false;  // certainly times
+  From from = From::unknown;
+};
+
+struct Utterance;
+
+struct Piece {
+  std::shared_ptr<Utterance> utterance;
+  double start = 0;  // in it, seconds
+  std::shared_ptr<const media::Pcm> sound;
+  std::string text, language;
+  Labels labels;  // of a piece without sound
+  std::string doubt;
+  bool aligned = false;    // its text, or that was tried
+  bool timed = false;      // it came with times
+  bool released = false;   // forget() was called
+  bool heard_all = false;  // it was made with the sound behind it
+
+  double end() const { return start + (sound ? sound->duration() : 0); }
+};
+
+struct Utterance {
+  std::uint64_t number = 0;
+  bool named = false;
+  // With the mutex of the stream:
+  double sound = 0;  // seconds that have come
+  std::string text;  // of all of it
+  bool text_told = false;
+  std::string language;
+  bool over = false;
+  bool told_alone = false;  // times came in messages of their own
+  std::vector<Labels> unread;
+  std::deque<std::shared_ptr<Piece>> pieces;  // with sound, ascending
+  std::vector<std::uint8_t> rest;             // of a sample that is not whole
+  // Of who makes lines:
+  UtteranceTimes times;
+  From times_from = From::unknown;
+  std::unique_ptr<SoundEar> ear;
+};
+
+bool is_file(std::span<const std::uint8_t> bytes) {
+  const auto starts = [&](std::size_t at, std::string_view tag) {
+    return bytes.size() >= at + tag.size() &&
+           std::memcmp(bytes.data() + at, tag.data(), tag.size()) == 0;
+  };
+  return starts(0, "RIFF") || starts(0, "ID3") || starts(0, "OggS") || starts(0, "fLaC") ||
+         starts(0, "\x1A\x45\xDF\xA3") || starts(4, "ftyp");
 }
 
-Error bad(std::string message) { return make_error(Code::syntax, std::move(message)); }
-
-// Takes the first member of one of these names out of `piece`; null: there is none.
-Json take(Json& piece, std::initializer_list<std::string_view> names) {
-  for (const Json::Member& member : piece.items()) {
-    const std::string key = plain(member.key);
-    if (std::find(names.begin(), names.end(), key) == names.end()) continue;
-    return piece.erase(member.key);
-  }
-  return nullptr;
+void add_sentence(std::string& all, const std::string& more) {
+  if (more.empty() || all.find(more) != std::string::npos) return;
+  all += (all.empty() ? "" : "; ") + more;
 }
 
-Result<std::string> take_text(Json& piece, std::initializer_list<std::string_view> names) {
-  Json value = take(piece, names);
-  if (value.is_null()) return std::string();
-  if (!value.is_string()) return bad("\"" + std::string(*names.begin()) + "\" has to be a text");
-  return std::move(value.text());
+// Whether a text may be what is said in so much sound, and not in more of it.
+bool fits(const std::string& text, double seconds) {
+  const auto letters = std::count_if(text.begin(), text.end(), [](char c) {
+    return c != ' ' && (std::uint8_t(c) & 0xC0U) != 0x80U;
+  });
+  return letters > 0 && seconds >= kLeastAligned && double(letters) <= kMostLetters * seconds;
 }
 
-enum class Encoding : std::uint8_t { file, s16, f32 };
-
-// Samples if a rate is given, else a sound file.
-Encoding encoding_of(const std::string& name, bool with_rate) {
-  const std::string wanted = plain(name);
-  for (const std::string_view known : {"s16le", "pcms16le", "linear16", "pcm16", "pcm"}) {
-    if (wanted == known) return Encoding::s16;
+// The sound of a piece at the rate that is sent. Its neighbours keep its ends from clicking.
+Result<media::Pcm> converted(const Piece& piece, const std::vector<SoundEar::Piece>& around,
+                             int sample_rate) {
+  const media::Pcm& sound = *piece.sound;
+  if (sample_rate == 0 || sound.sample_rate == sample_rate) return sound;
+  const auto border = std::size_t(kBorder * sound.sample_rate);
+  media::Pcm wide{sound.sample_rate, {}};
+  std::vector<float> after;
+  for (const SoundEar::Piece& one : around) {
+    if (one.sound->sample_rate != sound.sample_rate || one.sound == &sound) continue;
+    if (one.end() < piece.start - kBorder || after.size() >= border) continue;
+    std::vector<float>& side = one.start < piece.start ? wide.samples : after;
+    side.insert(side.end(), one.sound->samples.begin(), one.sound->samples.end());
   }
-  for (const std::string_view known : {"f32le", "pcmf32le", "float32"}) {
-    if (wanted == known) return Encoding::f32;
+  if (wide.samples.size() > border) {
+    wide.samples.erase(wide.samples.begin(), wide.samples.end() - std::ptrdiff_t(border));
   }
-  if (!name.empty()) return Encoding::file;
-  return with_rate ? Encoding::s16 : Encoding::file;
-}
-
-bool is_wav(std::span<const std::uint8_t> bytes) {
-  return bytes.size() > 12 && std::memcmp(bytes.data(), "RIFF", 4) == 0;
-}
-
-float sample_at(std::span<const std::uint8_t> bytes, std::size_t at, Encoding encoding) {
-  if (encoding == Encoding::s16) {
-    return float(std::int16_t(std::uint16_t(bytes[at] | bytes[at + 1] << 8))) / 32768.0F;
-  }
-  std::uint32_t bits = 0;
-  for (std::size_t i = 0; i < 4; ++i) bits |= std::uint32_t(bytes[at + i]) << (8 * i);
-  const float value = std::bit_cast<float>(bits);
-  return value >= -1 && value <= 1 ? value : value > 1 ? 1.0F : value < -1 ? -1.0F : 0.0F;
-}
-
-Result<media::Pcm> decode(std::span<const std::uint8_t> bytes, Encoding encoding, double rate) {
-  if (encoding == Encoding::file || is_wav(bytes)) {
-    return media::read_audio(bytes, {.max_seconds = kMostPieceSeconds});
-  }
-  if (!(rate >= 1000 && rate <= 384000)) {
-    return make_error(Code::invalid_argument,
-                      "samples need \"sample_rate\", from 1000 to 384000 a second");
-  }
-  media::Pcm pcm;
-  pcm.sample_rate = int(rate);
-  const std::size_t size = encoding == Encoding::s16 ? 2 : 4;
-  for (std::size_t at = 0; at + size <= bytes.size(); at += size) {
-    pcm.samples.push_back(sample_at(bytes, at, encoding));
+  const std::size_t before = wide.samples.size();
+  after.resize(border, after.empty() ? sound.samples.back() : after.back());
+  wide.samples.insert(wide.samples.end(), sound.samples.begin(), sound.samples.end());
+  wide.samples.insert(wide.samples.end(), after.begin(), after.end());
+  Result<media::Pcm> all = media::resample(wide, sample_rate);
+  if (!all) return all;
+  // From border to border on the clock of the utterance, so that no sample is lost or made.
+  const auto at = [&](double seconds) { return std::llround(seconds * sample_rate); };
+  const auto count = std::size_t(at(piece.end()) - at(piece.start));
+  const auto skip = std::size_t(at(double(before) / sound.sample_rate));
+  media::Pcm pcm{sample_rate, std::vector<float>(count, 0.0F)};
+  for (std::size_t i = 0; i < count && skip + i < all->samples.size(); ++i) {
+    pcm.samples[i] = all->samples[skip + i];
   }
   return pcm;
 }
 
-Result<media::Pcm> sound_of(Json& piece) {
-  Result<std::string> coded = take_text(piece, {"audio", "audiobase64", "audiocontent", "data"});
-  if (!coded) return coded.error();
-  Result<std::string> file = take_text(piece, {"file", "audiofile"});
-  if (!file) return file.error();
-  Result<std::string> encoding = take_text(piece, {"encoding", "format", "audioformat"});
-  if (!encoding) return encoding.error();
-  const Json rate = take(piece, {"samplerate", "sampleratehertz"});
-  if (!rate.is_null() && !rate.is_number()) return bad("\"sample_rate\" has to be a number");
-  if (coded->empty() && file->empty()) return media::Pcm{kPieceRate, {}};
-  if (!coded->empty() && !file->empty()) return bad("\"audio\" and \"file\" are both there");
-  if (!file->empty()) {
-    Result<media::Pcm> pcm = media::read_audio(*file, {.max_seconds = kMostPieceSeconds});
-    if (!pcm) return pcm.error().in_file(*file);
-    return pcm;
-  }
-  const auto bytes = tools::decode_base64(*coded);
-  if (!bytes) return bad("\"audio\" is no base64");
-  return decode(*bytes, encoding_of(*encoding, !rate.is_null()),
-                rate.is_null() ? 0 : rate.get<double>());
-}
-
-// Whether what is left of a piece may hold times: a list or an object, but not its own small talk.
-bool may_hold_times(const Json& piece) {
-  for (const auto& [key, value] : piece.items()) {
-    if (value.is_structured() && !value.empty()) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
-Result<Json> parse_object(std::string_view text) {
-  constexpr std::size_t kMostDeep = 64;
-  Result<Json> json = Json::parse(text, {.deepest = kMostDeep});
-  if (json && !json->is_object()) return bad("a piece is a JSON object, {...}");
-  return json;
+struct PieceStream::Impl {
+  voice::VoiceOptions voice;
+  ScriptInput input;
+  int made_rate = 0;  // of sound that is made; 0: its own
+
+  std::mutex mutex;  // guards what follows, and parts of utterances
+  std::map<std::string, std::shared_ptr<Utterance>> utterances;  // "": of pieces without a name
+  std::map<std::uint64_t, std::shared_ptr<Piece>> pieces;
+  std::uint64_t numbers = 0;
+  std::string coding;  // of samples, as was said last
+  double sample_rate = 0;
+  int channels = 1;
+  bool waits_for_times = false;  // times came in messages of their own before
+
+  std::shared_ptr<Utterance> utterance_of(const PieceMessage& message);
+  void prune();
+  Result<media::Pcm> decode(PieceMessage& message, Utterance& utterance);
+  Result<Taken> speech_of(PieceMessage& message, const std::shared_ptr<Utterance>& utterance);
+
+  Result<std::shared_ptr<Piece>> find(std::uint64_t key);
+  Result<SpokenLine> make_alone(const Piece& piece);
+  Result<SpokenLine> make_sound(Piece& piece);
+  void read(Utterance& utterance, const std::vector<Labels>& unread, const ScriptInput& how,
+            std::string& doubt);
+  void align(Piece& piece, const std::string& text, const ScriptInput& how, std::string& doubt);
+  ScriptInput reading(const std::string& language) const;
+};
+
+ScriptInput PieceStream::Impl::reading(const std::string& language) const {
+  ScriptInput how = input;
+  how.most_seconds = kMostPieceSeconds;
+  if (!language.empty()) how.language = language;
+  return how;
 }
 
-Result<SpokenLine> read_piece(std::string_view json, const voice::VoiceOptions& voice,
-                              const ScriptInput& input) {
-  Result<Json> piece = parse_object(json);
-  if (!piece) return piece.error();
-  Result<media::Pcm> audio = sound_of(*piece);
-  if (!audio) return audio.error();
-  (void)take(*piece, {"mood"});       // of line_command.h
-  (void)take(*piece, {"intensity"});  // of it
-  Json script = take(*piece, {"script"});
-  Result<std::string> language = take_text(*piece, {"language", "lang"});
-  if (!language) return language.error();
-  ScriptInput reading = input;
-  reading.most_seconds = kMostPieceSeconds;
-  if (!language->empty()) reading.language = *language;
+std::shared_ptr<Utterance> PieceStream::Impl::utterance_of(const PieceMessage& message) {
+  std::shared_ptr<Utterance>& found = utterances[message.utterance];
+  // A name may be used again; what has no name goes on after its end as another one.
+  if (!found || (found->over && message.has_sound())) {
+    found = std::make_shared<Utterance>();
+    found->number = ++numbers;
+    found->named = !message.utterance.empty();
+  }
+  const std::shared_ptr<Utterance> utterance = found;
+  if (utterances.size() > kMostUtterances) prune();
+  return utterance;
+}
 
+// The oldest one of which nothing waits to be spoken.
+void PieceStream::Impl::prune() {
+  auto oldest = utterances.end();
+  for (auto one = utterances.begin(); one != utterances.end(); ++one) {
+    const auto& all = one->second->pieces;
+    const bool spoken =
+        std::all_of(all.begin(), all.end(), [](const auto& piece) { return piece->released; });
+    if (!spoken || one->first.empty()) continue;
+    if (oldest == utterances.end() || one->second->number < oldest->second->number) oldest = one;
+  }
+  if (oldest != utterances.end()) utterances.erase(oldest);
+}
+
+Result<media::Pcm> PieceStream::Impl::decode(PieceMessage& message, Utterance& utterance) {
+  const media::ReadAudioOptions limit{.max_seconds = kMostPieceSeconds};
+  if (!message.file.empty()) {
+    Result<media::Pcm> pcm = media::read_audio(message.file, limit);
+    if (!pcm) return pcm.error().in_file(message.file);
+    return pcm;
+  }
+  const NamedCoding named = read_coding(coding);
+  const double rate = sample_rate > 0 ? sample_rate : named.sample_rate;
+  const bool unsaid = coding.empty() && rate == 0;
+  const bool unknown = !coding.empty() && !named.coding;
+  if (is_file(message.bytes) || unsaid || unknown) return media::read_audio(message.bytes, limit);
+  if (rate == 0) {
+    return make_error(Code::invalid_argument,
+                      "samples need \"sample_rate\", from 1000 to 384000 a second");
+  }
+  // A service may cut its sound anywhere, also inside of a sample.
+  std::vector<std::uint8_t>& bytes = utterance.rest;
+  bytes.insert(bytes.end(), message.bytes.begin(), message.bytes.end());
+  const SoundCoding how = named.coding.value_or(SoundCoding::s16);
+  media::Pcm pcm{int(rate), decode_samples(bytes, how, channels)};
+  const std::size_t used = pcm.samples.size() * bytes_of(how) * std::size_t(channels);
+  bytes.erase(bytes.begin(), bytes.begin() + std::ptrdiff_t(used));
+  if (pcm.duration() > kMostPieceSeconds) {
+    return make_error(Code::out_of_range, "it has more than 600 s of sound; send shorter pieces");
+  }
+  return pcm;
+}
+
+// With the mutex.
+Result<PieceStream::Taken> PieceStream::Impl::speech_of(
+    PieceMessage& message, const std::shared_ptr<Utterance>& utterance) {
+  Taken taken;
+  auto piece = std::make_shared<Piece>();
+  piece->utterance = utterance;
+  piece->language = message.language;
+  if (message.has_sound()) {
+    Result<media::Pcm> sound = decode(message, *utterance);
+    if (!sound) return sound.error();
+    if (sound->samples.empty()) return taken;  // a part of a sample
+    piece->sound = std::make_shared<const media::Pcm>(std::move(*sound));
+    piece->start = utterance->sound;
+    utterance->sound = piece->end();
+    utterance->pieces.push_back(piece);
+    piece->timed = !message.labels.empty();
+  }
+  Labels labels{std::move(message.labels), piece->start,
+                piece->sound ? piece->sound->duration() : 0, message.labels_given,
+                message.times_from};
+  if (labels.from == From::unknown && !utterance->named) labels.from = From::piece;
+  if (!labels.text.empty()) {
+    (piece->sound ? utterance->unread.emplace_back() : piece->labels) = std::move(labels);
+  }
+  piece->text = std::move(message.text);
+  if (piece->text.empty() && !utterance->text_told) piece->text = utterance->text;
+  utterance->text_told = true;
+  taken.text = piece->text;
+  taken.key = ++numbers;
+  taken.utterance = utterance->number;
+  pieces.emplace(taken.key, std::move(piece));
+  return taken;
+}
+
+PieceStream::PieceStream(const voice::VoiceOptions& voice, const ScriptInput& input,
+                         int sample_rate)
+    : impl_(new Impl{}) {
+  impl_->made_rate = sample_rate;
+  impl_->voice = voice;
+  impl_->input = input;
+}
+
+PieceStream::~PieceStream() = default;
+
+Result<PieceStream::Taken> PieceStream::add(std::string_view json) {
+  Result<PieceMessage> read = read_message(json);
+  if (!read) return read.error();
+  PieceMessage& message = *read;
+  const std::lock_guard lock(impl_->mutex);
+  if (message.has_format()) {
+    // A coding that is named says all; a rate alone leaves the rest as it was.
+    if (!message.coding.empty()) {
+      impl_->coding = message.coding;
+      impl_->sample_rate = 0;
+      impl_->channels = 1;
+    }
+    if (message.sample_rate > 0) impl_->sample_rate = message.sample_rate;
+    if (message.channels > 0) impl_->channels = message.channels;
+  }
+  const std::shared_ptr<Utterance> utterance = impl_->utterance_of(message);
+  if (!message.language.empty()) utterance->language = message.language;
+  Taken taken;
+  taken.utterance = utterance->number;
+  const bool nothing = !message.has_sound() && message.labels.empty() && message.text.empty();
+  const bool whole_text = !message.text.empty() && !message.text_goes_on;
+  if (message.text_goes_on) {
+    utterance->text += message.text;
+    message.text.clear();
+  }
+  if (message.has_sound() || (!utterance->named && (whole_text || !message.labels.empty()) &&
+                              !(message.small_talk && message.text.empty()))) {
+    if (whole_text && utterance->named && utterance->text.empty()) utterance->text = message.text;
+    Result<Taken> spoken = impl_->speech_of(message, utterance);
+    if (!spoken) return spoken;
+    taken = std::move(*spoken);
+  } else {
+    // About the sound of others.
+    if (whole_text) utterance->text = message.text;
+    if (!message.labels.empty() && utterance->named) {
+      utterance->told_alone = impl_->waits_for_times = true;
+      utterance->unread.push_back(
+          {std::move(message.labels), 0, 0, message.labels_given,
+           message.times_from == From::unknown ? From::utterance : message.times_from});
+      if (message.times_from == From::piece) {
+        utterance->unread.back().piece =
+            utterance->pieces.empty() ? 0 : utterance->pieces.back()->start;
+      }
+    }
+    if (message.last && utterance->sound == 0 && !utterance->text.empty()) {
+      message.text = utterance->text;
+      message.labels.clear();
+      Result<Taken> spoken = impl_->speech_of(message, utterance);
+      if (!spoken) return spoken;
+      taken = std::move(*spoken);
+    } else if (nothing && !message.small_talk && !message.has_format() && message.error.empty()) {
+      return make_error(Code::invalid_argument,
+                        "there is neither sound nor a text, and no timings");
+    }
+  }
+  if (message.last) {
+    utterance->over = true;
+    utterance->rest.clear();
+  }
+  if (!message.error.empty()) taken.warning = "the service reports an error: " + message.error;
+  return taken;
+}
+
+bool PieceStream::may_improve(std::uint64_t key) {
+  const std::lock_guard lock(impl_->mutex);
+  const auto found = impl_->pieces.find(key);
+  if (found == impl_->pieces.end()) return false;
+  const Piece& piece = *found->second;
+  const Utterance& utterance = *piece.utterance;
+  const bool more = utterance.over || utterance.sound >= piece.end() + SoundEar::kLookAhead;
+  return !utterance.unread.empty() || (more && !piece.heard_all);
+}
+
+bool PieceStream::times_came(std::uint64_t key) {
+  const std::lock_guard lock(impl_->mutex);
+  const auto found = impl_->pieces.find(key);
+  return found != impl_->pieces.end() && !found->second->utterance->unread.empty();
+}
+
+void PieceStream::forget(std::uint64_t key) {
+  const std::lock_guard lock(impl_->mutex);
+  const auto found = impl_->pieces.find(key);
+  if (found == impl_->pieces.end()) return;
+  const std::shared_ptr<Piece> piece = found->second;
+  impl_->pieces.erase(found);
+  piece->released = true;
+  // Sound that has just been spoken is what the next one follows.
+  auto& all = piece->utterance->pieces;
+  const double old = piece->end() - kOldSound;
+  while (!all.empty() && all.front()->released && all.front()->end() < old) all.pop_front();
+}
+
+// Gives times their place in the utterance.
+void PieceStream::Impl::read(Utterance& utterance, const std::vector<Labels>& unread,
+                             const ScriptInput& how, std::string& doubt) {
+  tools::Log log;
+  log.warn = [&doubt](const std::string& warning) { add_sentence(doubt, warning); };
+  for (const Labels& labels : unread) {
+    const auto timings = scripts::read_labels(labels.text, how.reading);
+    if (!timings) {
+      log.warn((labels.given ? "its script cannot be read (" : "its members are not timings (") +
+               timings.error().message + ")");
+      continue;
+    }
+    const bool events = timings->format == "azure" || timings->format == "polly";
+    const Result<dam::Script> script = parse_script(labels.text, "the piece", how, log);
+    if (!script) {
+      log.warn("its times cannot be used (" + script.error().message + ")");
+      continue;
+    }
+    From from = labels.from == From::unknown ? utterance.times_from : labels.from;
+    if (from == From::unknown) {
+      // By what they fit. At the begin of an utterance both are the same.
+      const auto first = std::find_if(script->phones.begin(), script->phones.end(),
+                                      [](const auto& p) { return p.label != dam::kSilence; });
+      const double start = first == script->phones.end() ? labels.piece : first->start;
+      const bool later = start >= labels.piece - kTimely;
+      const bool inside = script->duration() <= labels.length + kAfterSound;
+      from = later || !inside ? From::utterance : From::piece;
+      if (labels.piece > kTimely && first != script->phones.end()) utterance.times_from = from;
+    }
+    const double offset = from == From::piece ? labels.piece : 0;
+    const double over = script->duration() + offset - labels.piece - labels.length;
+    if (labels.length > 0 && over > kAfterSound) {
+      log.warn("its times reach " + std::to_string(std::lround(over * 1000)) +
+               " ms behind its sound; they wait for the next piece");
+    }
+    utterance.times.add(*script, offset, events);
+  }
+}
+
+// Of a piece whose text is all that is said in it.
+void PieceStream::Impl::align(Piece& piece, const std::string& text, const ScriptInput& how,
+                              std::string& doubt) {
+  piece.aligned = true;
+  tools::Log log;
+  log.warn = [&doubt](const std::string& warning) { add_sentence(doubt, warning); };
   TimedSound sound;
   sound.from = "the piece";
-  const bool found = script.is_null() && may_hold_times(*piece);
-  if (script.is_string()) {
-    sound.labels = std::move(script.text());
-  } else if (!script.is_null()) {
-    sound.labels = script.dump();
-  } else if (found) {
-    sound.labels = piece->dump();
+  sound.text = text;
+  sound.audio = *piece.sound;
+  const Result<TimedSpeech> timed = time_sound(std::move(sound), how, log);
+  if (!timed) {
+    log.warn("its text cannot be aligned (" + timed.error().message +
+             "); the face follows the sound");
+    return;
   }
-  Result<std::string> text = take_text(*piece, {"text", "transcript"});
-  if (!text) return text.error();
+  piece.utterance->times.add(timed->speech.script, piece.start);
+}
+
+Result<SpokenLine> PieceStream::Impl::make_sound(Piece& piece) {
+  Utterance& utterance = *piece.utterance;
+  std::vector<Labels> unread;
+  std::vector<std::shared_ptr<Piece>> kept;  // so that their sound stays
+  bool over = false, waits = false, more = false;
+  ScriptInput how;
+  {
+    const std::lock_guard lock(mutex);
+    unread.swap(utterance.unread);
+    kept.assign(utterance.pieces.begin(), utterance.pieces.end());
+    over = utterance.over;
+    how = reading(utterance.language);
+    more = utterance.sound >= piece.end() + SoundEar::kLookAhead;
+    piece.heard_all = more || over;
+    waits = utterance.named && (utterance.told_alone || waits_for_times);
+  }
+  std::vector<SoundEar::Piece> sounds;
+  for (const auto& one : kept) sounds.push_back({one->start, one->sound.get()});
   SpokenLine line;
   line.joins = true;
-  line.text = *text;
+  line.text = piece.text;
+  read(utterance, unread, how, line.doubt);
   tools::Log log;
-  log.warn = [&line](const std::string& warning) {
-    line.doubt += (line.doubt.empty() ? "" : "; ") + warning;
-  };
-  *text = text_to_say(*text, input.reading.speak_marks, log);
-  if (found && !text->empty()) {
+  log.warn = [&line](const std::string& warning) { add_sentence(line.doubt, warning); };
+  const std::string text = text_to_say(piece.text, input.reading.speak_marks, log);
+  const double told = utterance.times.known();
+  const bool timed = piece.timed || told >= piece.end() - kKnown;
+  if (!timed && told <= piece.start && !piece.aligned && fits(text, piece.sound->duration())) {
+    align(piece, text, how, line.doubt);
+  }
+  std::optional<dam::Script> heard;
+  if (!timed && utterance.times.known() < piece.end() - kKnown) {
+    if (!utterance.ear) utterance.ear = std::make_unique<SoundEar>(how.language);
+    heard = utterance.ear->hear(sounds, piece.start, piece.end());
+    if (!heard) {
+      log.warn("the face cannot follow its sound (" + utterance.ear->why() + ")");
+    }
+    line.improvable = !over && (waits || !more);
+  }
+  UtterancePart part = utterance.times.between(piece.start, piece.end(), heard ? &*heard : nullptr);
+  line.speech.script = std::move(part.script);
+  line.words = std::move(part.words);
+  line.goes_on = part.goes_on;
+  if (!text::is_ssml(text)) {
+    line.speech.moods = text::find_moods(text, line.speech.script);
+  }
+  Result<media::Pcm> sound = converted(piece, sounds, made_rate);
+  line.speech.audio = sound ? std::move(*sound) : *piece.sound;
+  utterance.times.forget(piece.start - 2 * kOldSound);
+  return line;
+}
+
+// What has no sound of its own.
+Result<SpokenLine> PieceStream::Impl::make_alone(const Piece& piece) {
+  SpokenLine line;
+  line.joins = true;
+  line.text = piece.text;
+  tools::Log log;
+  log.warn = [&line](const std::string& warning) { add_sentence(line.doubt, warning); };
+  const ScriptInput how = reading(piece.language);
+  TimedSound sound;
+  sound.from = "the piece";
+  sound.text = text_to_say(piece.text, input.reading.speak_marks, log);
+  sound.labels = piece.labels.text;
+  sound.audio.sample_rate = kPieceRate;
+  if (!piece.labels.given && !sound.labels.empty() && !sound.text.empty()) {
     if (const auto timings = scripts::read_labels(sound.labels); !timings) {
       log.warn("its members are not timings (" + timings.error().message + ")");
       sound.labels.clear();
     }
   }
-  if (sound.labels.empty() && audio->samples.empty()) {
+  if (sound.labels.empty()) {
     voice::VoiceOptions settings = voice;
-    settings.language = reading.language;
-    Result<voice::Speech> speech = voice::speak_text(*text, settings);
+    settings.language = how.language;
+    Result<voice::Speech> speech = voice::speak_text(sound.text, settings);
     if (!speech) return speech.error();
     line.speech = std::move(*speech);
     return line;
   }
-  sound.text = std::move(*text);
-  sound.audio = std::move(*audio);
-  Result<TimedSpeech> timed = time_sound(std::move(sound), reading, log);
+  Result<TimedSpeech> timed = time_sound(std::move(sound), how, log);
   if (!timed) {
     Error error = timed.error();
     error.where = {};  // positions are inside a part of the line
@@ -195,15 +511,54 @@ Result<SpokenLine> read_piece(std::string_view json, const voice::VoiceOptions& 
   return line;
 }
 
+Result<std::shared_ptr<Piece>> PieceStream::Impl::find(std::uint64_t key) {
+  const std::lock_guard lock(mutex);
+  const auto found = pieces.find(key);
+  if (found == pieces.end()) return make_error(Code::not_found, "it is no longer needed");
+  return found->second;
+}
+
+Result<SpokenLine> PieceStream::make(std::uint64_t key) {
+  const Result<std::shared_ptr<Piece>> piece = impl_->find(key);
+  if (!piece) return piece.error();
+  return (*piece)->sound ? impl_->make_sound(**piece) : impl_->make_alone(**piece);
+}
+
+Result<SpokenLine> PieceStream::words(std::uint64_t key) {
+  const Result<std::shared_ptr<Piece>> found = impl_->find(key);
+  if (!found) return found.error();
+  const Piece& piece = **found;
+  std::vector<Labels> unread;
+  ScriptInput how;
+  {
+    const std::lock_guard lock(impl_->mutex);
+    unread.swap(piece.utterance->unread);
+    how = impl_->reading(piece.utterance->language);
+  }
+  SpokenLine line;
+  impl_->read(*piece.utterance, unread, how, line.doubt);
+  line.words = piece.utterance->times.between(piece.start, piece.end(), nullptr).words;
+  return line;
+}
+
+Result<SpokenLine> read_piece(std::string_view json, const voice::VoiceOptions& voice,
+                              const ScriptInput& input) {
+  PieceStream stream(voice, input);
+  const Result<PieceStream::Taken> taken = stream.add(json);
+  if (!taken) return taken.error();
+  if (taken->key == 0) {
+    return make_error(Code::invalid_argument, "there is neither sound nor a text, and no timings");
+  }
+  return stream.make(taken->key);
+}
+
 LineMaker piece_lines(const voice::VoiceOptions& voice, const ScriptInput& input) {
   LineMaker maker;
   maker.sample_rate = kPieceRate;
   maker.most_bytes = kMostPiece;
   maker.cut = false;
   maker.json = true;
-  maker.make = [voice, input](const std::string& line, const Wanted&) {
-    return read_piece(line, voice, input);
-  };
+  maker.pieces = std::make_shared<PieceStream>(voice, input, kPieceRate);
   return maker;
 }
 

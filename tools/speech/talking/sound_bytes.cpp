@@ -14,7 +14,7 @@ constexpr int kSlowestRate = 4000, kFastestRate = 384000, kMostChannels = 16;
 constexpr std::uint64_t kLongestHead = 1 << 20;
 constexpr std::uint32_t kBelieved = 0x7fffffff;  // what is more is what pipes write
 constexpr std::size_t kLongestFormat = 4096;
-constexpr int kWavPcm = 1, kWavFloat = 3, kWavExtensible = 0xfffe;
+constexpr int kWavPcm = 1, kWavFloat = 3, kWavALaw = 6, kWavMuLaw = 7, kWavExtensible = 0xfffe;
 
 template <class T>
 T little(const std::uint8_t* bytes) {
@@ -38,18 +38,35 @@ bool rate_fits(std::int64_t rate) { return rate >= kSlowestRate && rate <= kFast
 }  // namespace
 
 Result<BareSound> parse_bare_sound(const std::string& text) {
-  const std::size_t colon = text.find(':');
-  const auto rate = whole_number(std::string_view(text).substr(0, colon));
-  const auto channels = colon == std::string::npos
-                            ? std::optional<int>(1)
-                            : whole_number(std::string_view(text).substr(colon + 1));
-  if (!rate || !channels || !rate_fits(*rate) || *channels < 1 || *channels > kMostChannels) {
+  BareSound bare;
+  bool good = !text.empty(), rate_known = false, channels_known = false, coding_known = false;
+  for (std::size_t at = 0; good && at <= text.size();) {
+    const std::size_t colon = std::min(text.find(':', at), text.size());
+    const std::string_view part = std::string_view(text).substr(at, colon - at);
+    at = colon + 1;
+    const std::optional<int> number = whole_number(part);
+    const std::optional<SoundCoding> coding = read_coding(part).coding;
+    if (number && !rate_known && !coding_known) {
+      bare.sample_rate = *number;
+      rate_known = true;
+    } else if (number && !channels_known) {
+      bare.channels = *number;
+      channels_known = true;
+    } else if (!coding_known && (coding == SoundCoding::mulaw || coding == SoundCoding::alaw)) {
+      bare.coding = *coding;
+      if (!rate_known) bare.sample_rate = read_coding(part).sample_rate;
+      coding_known = rate_known = true;
+    } else {
+      good = false;
+    }
+  }
+  if (!good || !rate_fits(bare.sample_rate) || bare.channels < 1 || bare.channels > kMostChannels) {
     return make_error(Code::invalid_argument,
                       "'" + text +
-                          "' is not a sample rate; write 16000, or 48000:2 for two "
-                          "channels");
+                          "' is not a sample rate; write 16000, 48000:2 for two channels, or "
+                          "mulaw or alaw for a telephone");
   }
-  return BareSound{*rate, *channels};
+  return bare;
 }
 
 SoundBytes::SoundBytes(std::optional<BareSound> bare) {
@@ -57,7 +74,8 @@ SoundBytes::SoundBytes(std::optional<BareSound> bare) {
   in_sound_ = true;
   rate_ = bare->sample_rate;
   channels_ = bare->channels;
-  bits_ = 16;
+  if (bare->coding != SoundCoding::s16) telephone_ = bare->coding;
+  bits_ = telephone_ ? 8 : 16;
   left_ = std::numeric_limits<std::uint64_t>::max();
 }
 
@@ -69,12 +87,15 @@ Result<void> SoundBytes::read_format(std::span<const std::uint8_t> chunk) {
   bits_ = little<std::uint16_t>(&chunk[14]);
   if (format_ == kWavExtensible && chunk.size() >= 26) format_ = little<std::uint16_t>(&chunk[24]);
   is_float_ = format_ == kWavFloat;
+  if (bits_ == 8 && format_ == kWavMuLaw) telephone_ = SoundCoding::mulaw;
+  if (bits_ == 8 && format_ == kWavALaw) telephone_ = SoundCoding::alaw;
   const bool known =
       is_float_ ? bits_ == 32 || bits_ == 64
                 : format_ == kWavPcm && (bits_ == 8 || bits_ == 16 || bits_ == 24 || bits_ == 32);
-  if (!known) {
-    return make_error(Code::unsupported,
-                      "WAV of another coding than PCM; convert it: ffmpeg -i IN -f wav -");
+  if (!known && !telephone_) {
+    return make_error(
+        Code::unsupported,
+        "WAV of another coding than PCM and G.711; convert it: ffmpeg -i IN -f wav -");
   }
   if (!rate_fits(rate) || channels_ < 1 || channels_ > kMostChannels) {
     return make_error(Code::unsupported, "WAV of " + std::to_string(rate) + " Hz and " +
@@ -129,6 +150,7 @@ Result<bool> SoundBytes::read_head() {
 }
 
 float SoundBytes::sample(const std::uint8_t* bytes) const {
+  if (telephone_) return *telephone_ == SoundCoding::mulaw ? from_mulaw(*bytes) : from_alaw(*bytes);
   if (is_float_) {
     if (bits_ == 64) return float(std::bit_cast<double>(little<std::uint64_t>(bytes)));
     return std::bit_cast<float>(little<std::uint32_t>(bytes));

@@ -10,23 +10,27 @@
 #include <vector>
 
 #include "fap/result.h"
+#include "tools/speech/talking/sound_coding.h"
 
 namespace animeme::speech {
 
-/// Format of raw samples: 16 bit, little endian, interleaved channels.
+/// Format of raw samples with interleaved channels.
 struct BareSound {
-  int sample_rate = 16000;  ///< 4000..384000 Hz
-  int channels = 1;         ///< 1..16
+  int sample_rate = 16000;                ///< 4000..384000 Hz
+  int channels = 1;                       ///< 1..16
+  SoundCoding coding = SoundCoding::s16;  ///< of each sample; not f32
 };
 
-/// Reads "16000" or "48000:2" (rate, channels). Errors: invalid_argument.
+/// Reads "16000" or "48000:2" (rate, channels) of 16-bit samples; "mulaw" and "alaw" are those of
+/// telephones, 8000 a second, with an optional rate before it: "16000:alaw". Errors:
+/// invalid_argument.
 Result<BareSound> parse_bare_sound(const std::string& text);
 
 /// Converts bytes incrementally to samples of one channel (the mean of all channels).
 ///
-/// WAV: samples of 8, 16, 24, 32 bit and of float 32 and 64. The length in the header is ignored if
-/// it is 0 or more than 2 GB, as pipes write it; otherwise data after it is ignored. A truncated
-/// sound ends with its last complete sample.
+/// WAV: samples of 8, 16, 24, 32 bit, of float 32 and 64, and G.711. The length in the header is
+/// ignored if it is 0 or more than 2 GB, as pipes write it; otherwise data after it is ignored. A
+/// truncated sound ends with its last complete sample.
 class SoundBytes {
  public:
   /// `bare`: nullopt for WAV.
@@ -48,6 +52,7 @@ class SoundBytes {
   std::uint64_t left_ = 0;  // bytes of sound
   int rate_ = 0, channels_ = 0, bits_ = 0, format_ = 0;
   bool is_float_ = false;
+  std::optional<SoundCoding> telephone_;  // G.711
 };
 
 }  // namespace animeme::speech

@@ -79,8 +79,11 @@ std::vector<double> row(const dam::Signal& signal, std::size_t frame) {
   return {begin, begin + std::ptrdiff_t(controls)};
 }
 
+constexpr double kNoGap = 0.001;  // seconds: samples and phones do not end at the same instants
+
 // What is left of a script from `cut` seconds on, and behind it another one that begins at `start`.
-dam::Script joint(const dam::Script& before, double cut, const dam::Script& after, double start) {
+dam::Script joint(const dam::Script& before, double cut, const dam::Script& after, double start,
+                  bool goes_on = false) {
   dam::Script script;
   for (dam::Phone phone : before.phones) {
     phone.start = std::max(phone.start, cut) - cut;
@@ -88,19 +91,23 @@ dam::Script joint(const dam::Script& before, double cut, const dam::Script& afte
     if (phone.end > phone.start) script.phones.push_back(std::move(phone));
   }
   start -= cut;
+  if (!script.phones.empty() && start > script.duration() && start - script.duration() < kNoGap) {
+    script.phones.back().end = start;
+  }
   if (start > script.duration()) {
     script.phones.push_back({script.duration(), start, std::string(dam::kSilence), {}});
   }
   for (dam::Phone phone : after.phones) {
     phone.start += start;
     phone.end += start;
-    // Two silences in a row are one.
-    if (phone.label == dam::kSilence && !script.phones.empty() &&
-        script.phones.back().label == dam::kSilence) {
+    // Two silences in a row are one, and so are the parts of a phone.
+    const bool same = !script.phones.empty() && script.phones.back().label == phone.label;
+    if (same && (goes_on || phone.label == dam::kSilence)) {
       script.phones.back().end = phone.end;
     } else {
       script.phones.push_back(std::move(phone));
     }
+    goes_on = false;
   }
   return script;
 }
@@ -348,7 +355,7 @@ Result<void> TalkingFace::cut() {
 }
 
 Result<Line> TalkingFace::join(const dam::Script& script, double start, const LineMoods& moods,
-                               const dam::Prosody* prosody) {
+                               const dam::Prosody* prosody, bool goes_on) {
   if (!(start >= 0)) return make_error(Code::invalid_argument, "a line begins in the past");
   if (!speaking()) {
     LineMoods shifted = moods;
@@ -360,7 +367,7 @@ Result<Line> TalkingFace::join(const dam::Script& script, double start, const Li
   const auto kept = std::size_t(std::ceil(kHistory * rate.frames_per_second()));
   const std::size_t cut = at_ > kept ? at_ - kept : 0;
   const double begin = rate.seconds(double(at_)) + start;  // in the piece that is shown
-  const dam::Script both = joint(script_, rate.seconds(double(cut)), script, begin);
+  const dam::Script both = joint(script_, rate.seconds(double(cut)), script, begin, goes_on);
   Result<dam::Signal> signal = synthesise(both);
   if (!signal) return signal.error();
   const std::size_t at = at_ - cut;

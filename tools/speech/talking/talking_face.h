@@ -78,10 +78,10 @@ class TalkingFace {
                    const dam::Prosody* prosody = nullptr);
   /// Extends the current line: `script` begins `start` seconds after the next frame (0 or more; not
   /// before the end of the current speech) and is coarticulated with the rest of that, which is
-  /// recomputed. Without current speech it begins a new line. Errors: as say(); invalid_argument
-  /// (`start` is negative or NaN).
+  /// recomputed. Without current speech it begins a new line. `goes_on`: the first phone is the
+  /// rest of the last one. Errors: as say(); invalid_argument (`start` is negative or NaN).
   Result<Line> join(const dam::Script& script, double start, const LineMoods& moods = {},
-                    const dam::Prosody* prosody = nullptr);
+                    const dam::Prosody* prosody = nullptr, bool goes_on = false);
   /// The mood from the next frame on, and between lines. Moods of a line that is spoken end.
   void set_mood(const dam::Mood& mood);
   /// Interrupts speech: the mouth begins to close evenly with the next frame and is at rest 0.1 s

@@ -103,7 +103,10 @@ Result<LineMaker> command_lines(const VoiceCommand& voice) {
   if (!command) return command.error();
   LineMaker maker;
   maker.sample_rate = kLiveRate;
-  maker.make = [voice](std::string line, const Wanted& wanted) -> Result<SpokenLine> {
+  maker.make_in = [voice](std::string line, const std::string& language,
+                          const Wanted& wanted) -> Result<SpokenLine> {
+    VoiceCommand how = voice;
+    if (!language.empty()) how.input.language = language;
     SpokenLine spoken;
     tools::Log log;
     log.warn = [&spoken](const std::string& text) {
@@ -111,12 +114,15 @@ Result<LineMaker> command_lines(const VoiceCommand& voice) {
     };
     tools::Progress progress;
     progress.stop = [&wanted] { return !wanted(); };
-    Result<TimedSpeech> timed = run_voice_command(line, voice, log, progress);
+    Result<TimedSpeech> timed = run_voice_command(line, how, log, progress);
     if (!timed) return timed.error();
     spoken.text = std::move(line);
     spoken.speech = std::move(timed->speech);
     spoken.joins = true;
     return spoken;
+  };
+  maker.make = [make = maker.make_in](std::string line, const Wanted& wanted) {
+    return make(std::move(line), {}, wanted);
   };
   return maker;
 }
