@@ -8,12 +8,59 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 import unittest
+import urllib.error
+import urllib.request
 
 from client import Server, Socket, ask, until
 
 PROGRAM = sys.argv[1]
 INTRA = 1  # bit of the flags of a unit of /face (tools/live/web/README.md)
+
+
+class Events:
+    """What is told of lines on a socket."""
+
+    def __init__(self, told):
+        self.socket, self.all = told, []
+
+    def wait(self, name):
+        """Until an event of that name; None: to the end."""
+        while (message := self.socket.next()) is not None:
+            told = json.loads(message)
+            if "event" not in told:
+                continue
+            self.all.append(told)
+            if told["event"] == name:
+                return told
+        return None
+
+    def count(self, name):
+        return sum(event["event"] == name for event in self.all)
+
+
+def ask_with_headers(url, method, body):
+    request = urllib.request.Request(url, data=body.encode(), method=method)
+    try:
+        with urllib.request.urlopen(request, timeout=30) as answer:
+            return answer.status, answer.read().decode(), answer.headers
+    except urllib.error.HTTPError as refused:
+        return refused.code, refused.read().decode(), refused.headers
+
+
+def descendants(process):
+    """Processes below a process."""
+    found = []
+    for entry in os.listdir("/proc"):
+        try:
+            with open(f"/proc/{entry}/stat") as file:
+                parent = int(file.read().rsplit(")", 1)[1].split()[1])
+        except (OSError, IndexError, ValueError):
+            continue
+        if entry.isdigit() and parent == process:
+            found += [int(entry), *descendants(int(entry))]
+    return found
 
 
 def planes_of(viewer, count):
@@ -179,6 +226,42 @@ class Heads(unittest.TestCase):
             self.assertEqual(self.server.ask(path, method, "" if method == "POST" else None)[0], status, path)
         self.assertEqual(self.server.json("/heads")[1]["count"], 0)
 
+    def test_json_is_a_line_too(self):
+        self.server.ask("/heads/jo", "PUT")
+        told = Events(Socket(self.server.port, "/heads/jo/faps"))
+        for body in ['{"text": "Hello there.", "id": "greeting", "lang": "en-gb"}',
+                     '["One.", {"text": "Two.", "id": "2"}]', 'Three.\n{"text": "Four."}\n']:
+            self.assertEqual(self.server.ask("/heads/jo/say", "POST", body)[0], 202, body)
+        self.assertTrue(all(told.wait("done") for _ in range(5)))
+        texts = [event["text"] for event in told.all if event["event"] == "started"]
+        self.assertEqual(texts, ["Hello there.", "One.", "Two.", "Three.", "Four."])
+        self.assertEqual(told.all[0]["id"], "greeting")
+        status, answer = self.server.json("/heads/jo/say", "POST", '{"text": "Hi.", "loud": true}')
+        self.assertEqual(status, 400)
+        self.assertIn('"loud"', answer["error"])
+
+    def test_nothing_waits_for_long_lines(self):
+        text = "I could go on like this for hours, and nobody would stop me. " * 1000
+        for number in range(6):
+            self.server.ask(f"/heads/l{number}", "PUT")
+            self.assertEqual(self.server.ask(f"/heads/l{number}/say", "POST", text[:63000])[0], 202)
+        slow = []
+        for _ in range(20):
+            begun = time.monotonic()
+            self.assertEqual(self.server.ask("/health")[0], 200)
+            slow.append(time.monotonic() - begun)
+        print("health in the middle of six long lines:", sorted(slow)[10], flush=True)
+        status, _, headers = ask_with_headers(self.server.url + "/heads/l0/say", "POST", "And more.")
+        self.assertEqual(status, 429)
+        self.assertGreaterEqual(int(headers["Retry-After"]), 1)
+        # Stops are never refused; what follows them has room.
+        told = Events(Socket(self.server.port, "/heads/l0/faps"))
+        self.assertEqual(self.server.ask("/heads/l0/say", "POST", '{"do": "stop"}\nYes?')[0], 202)
+        self.assertTrue(told.wait("cancelled"))
+        self.assertTrue(told.wait("done"))
+        self.assertEqual(told.count("cancelled"), 1)
+        self.assertEqual(self.server.ask("/heads/another", "PUT")[0], 201)
+
     def test_there_are_limits(self):
         for i in range(12):
             self.assertEqual(self.server.ask(f"/heads/h{i}", "PUT")[0], 201)
@@ -267,8 +350,63 @@ class Ends(unittest.TestCase):
             server.process.send_signal(how)
             while viewer.next() is not None:
                 pass
-            self.assertEqual(viewer.closed, 1000)
+            self.assertEqual(viewer.closed, 1001)  # viewers come back to the next process
             self.assertEqual(server.end(None)[0], code)
+
+    def test_what_was_accepted_is_spoken_before_the_end(self):
+        server = Server(PROGRAM)
+        self.assertEqual(server.json("/ready"), (200, {"ready": True}))
+        server.ask("/heads/anna", "PUT")
+        told = Socket(server.port, "/heads/anna/faps")
+        self.assertEqual(server.ask("/heads/anna/say", "POST", "One, two, three.\nAnd four.")[0], 202)
+        events = Events(told)
+        self.assertTrue(events.wait("started"))
+        server.process.send_signal(signal.SIGTERM)
+        self.assertTrue(until(lambda: server.ask("/ready")[0] == 503))
+        self.assertEqual(server.json("/health")[1]["status"], "ending")
+        status, answer, headers = ask_with_headers(server.url + "/heads/anna/say", "POST", "Five.")
+        self.assertEqual(status, 503)
+        self.assertEqual(headers["Retry-After"], "1")
+        self.assertEqual(server.ask("/heads/ben", "PUT")[0], 503)
+        events.wait(None)
+        self.assertEqual(events.count("done"), 2)
+        self.assertEqual(events.count("cancelled"), 0)
+        self.assertEqual(told.closed, 1001)
+        self.assertEqual(server.end(None)[0], 0)
+
+    def test_what_takes_too_long_is_cancelled_with_events(self):
+        server = Server(PROGRAM, "--drain", "0.2")
+        for name in ("anna", "ben"):
+            server.ask("/heads/" + name, "PUT")
+        told = Events(Socket(server.port, "/heads/anna/faps"))
+        gone = Events(Socket(server.port, "/heads/ben/faps"))
+        for name in ("anna", "ben"):
+            server.ask(f"/heads/{name}/say", "POST", "I could go on like this for hours. " * 20 + "\nNext.")
+        self.assertTrue(told.wait("started"))
+        self.assertTrue(gone.wait("started"))
+        server.ask("/heads/ben", "DELETE")
+        gone.wait(None)
+        self.assertEqual((gone.count("cancelled"), gone.count("done")), (2, 0))
+        self.assertEqual(gone.socket.closed, 1000)
+        server.process.send_signal(signal.SIGTERM)
+        told.wait(None)
+        self.assertEqual((told.count("cancelled"), told.count("done")), (2, 0))
+        self.assertEqual(server.end(None)[0], 0)
+
+    def test_a_voice_that_dies_loses_no_line(self):
+        server = Server(PROGRAM)
+        server.ask("/heads/anna", "PUT")
+        told = Events(Socket(server.port, "/heads/anna/faps"))
+        for number in range(6):
+            for child in descendants(server.process.pid):
+                try:
+                    os.kill(child, signal.SIGKILL)
+                except ProcessLookupError:
+                    pass
+            self.assertEqual(server.ask("/heads/anna/say", "POST", f"Line {number}.")[0], 202)
+            self.assertTrue(told.wait("done"))
+        self.assertEqual(told.count("cancelled"), 0)
+        self.assertEqual(server.end()[0], 0)
 
     def test_a_token_is_needed(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -32,6 +32,7 @@ struct ServeOptions {
   HeadChoices faces;                // --head and what belongs to it
   serve::ServerOptions server;      // all others
   bool stats = false;               // --stats
+  double drain = 30;                // --drain
   bool json = false;                // --json
 };
 
@@ -87,6 +88,14 @@ void add_options(OptionTable& cli, ServeOptions& options) {
           "is removed; 0: never")
       ->at_least_zero()
       ->show_default();
+  cli.add("--max-waiting", server.most_seconds,
+          "Most seconds of speech that may wait for a head, besides one line; more is refused")
+      ->between(1.0, 1e6)
+      ->show_default();
+  cli.add("--drain", options.drain,
+          "Seconds in which what is being said may end after SIGTERM; the rest is cancelled")
+      ->between(0.0, 3600.0)
+      ->show_default();
   cli.add("--make-on-say", server.make_on_say,
           "Create a head that does not exist when it is told to speak, with the defaults of "
           "the file");
@@ -97,9 +106,10 @@ void add_options(OptionTable& cli, ServeOptions& options) {
   add_heads_options(cli, options.faces.heads, options.faces.rest);
   cli.add("--stats", options.stats, "Print statistics once per second");
   cli.add("--json", options.json, "Print the address as JSON at the start, statistics at the end");
-  cli.show_in_help_all("Server",
-                       "--threads --max-clients --max-per-address --allow-origin --host-name "
-                       "--points --shape-name --shape-names --gain");
+  cli.show_in_help_all(
+      "Server",
+      "--threads --max-waiting --drain --max-clients --max-per-address --allow-origin --host-name "
+      "--points --shape-name --shape-names --gain");
 }
 
 constexpr std::size_t kMostToken = 400;  // bytes; headers of 512 are read
@@ -142,6 +152,15 @@ void show_figures(StatusLine& status, const serve::HeadServer& server) {
              figures["count"].get<int>(), figures["awake"].get<int>(),
              figures["viewers"].get<int>(), figures["late_50_ms"].get<double>(),
              figures["late_99_ms"].get<double>(), figures["memory_mb"].get<double>()));
+}
+
+// No new lines; those that were accepted are spoken.
+void wait_for_silence(serve::HeadServer& server, double seconds) {
+  server.drain();
+  const double end = media::steady_clock().now() + seconds;
+  while (!server.silent() && media::steady_clock().now() < end) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
 }
 
 Result<int> run(ServeOptions& options) {
@@ -199,6 +218,7 @@ Result<int> run(ServeOptions& options) {
     if (options.stats) show_figures(status, **server);
   }
   status.clear();
+  if (Interrupt::terminated()) wait_for_silence(**server, options.drain);
   const Json figures = (*server)->figures();
   (*server)->finish();
   if (options.json) std::printf("%s\n", pretty(figures).c_str());

@@ -24,8 +24,9 @@ constexpr double kPollSeconds = 0.05;  // sinks are looked after so often
 
 std::string bad_options(const StreamOptions& options) {
   const live::ProgramOptions& what = options.program;
-  const bool said = !what.say.empty() || !what.say_json.empty() || !what.control.empty();
   const bool voice = !what.say_audio.empty();
+  const bool said =
+      !what.say.empty() || !what.say_json.empty() || (!what.control.empty() && !voice);
   speech::SpokenOptions source = what.spoken;
   source.listen = options.input.empty() && !said && !voice;  // else it is the sound of that
   const bool spoken = speech::has_source(source);
@@ -37,8 +38,6 @@ std::string bad_options(const StreamOptions& options) {
   if (voice && (what.loop || options.fast)) {
     return "--loop and --fast are for clips, --say-audio comes in its own time";
   }
-  if (voice && options.idle.on.value_or(false)) return "--idle-motion is for clips and --say";
-  if (voice && !options.mood.empty()) return "--mood is for clips and --say";
   if (!options.over.path.empty() && (voice || !options.input.empty())) {
     return "--over is for speech that is made: --say, or --text and its like";
   }
@@ -53,8 +52,9 @@ std::string bad_options(const StreamOptions& options) {
   if (said && options.fast) {
     return "--fast does not go with --say, whose lines come in their own time";
   }
-  if (!options.events.empty() && !said)
-    return "--events tells of the lines of --say and --say-json";
+  if (!options.events.empty() && !said && !voice) {
+    return "--events tells of the lines of --say and --say-json, and of commands";
+  }
   if (options.events == "-" && options.json) {
     return "--events - and --json both write to standard output; name a file for the events";
   }
@@ -73,12 +73,14 @@ class Watch {
 
   /// What became of the lines meanwhile.
   Result<void> tell_events(live::Sinks& sinks) {
+    if (program_.voice) return events_.tell(program_.voice->take_events(), sinks);
     if (!program_.speaker) return {};
     return events_.tell(program_.speaker->take_events(), sinks);
   }
   /// Nothing more is said.
   Result<void> end(live::Sinks& sinks) {
     if (program_.speaker) program_.speaker->end("the stream has ended");
+    if (program_.voice) program_.voice->end("the stream has ended");
     return tell_events(sinks);
   }
 
@@ -184,10 +186,10 @@ Result<live::Clip> load_clip(const std::string& path, const std::string& audio,
 
 Result<void> open_program(const StreamOptions& options, fap::Rate rate, live::Program& program) {
   const live::ProgramOptions& what = options.program;
+  if (!what.say_audio.empty()) return live::open_voice(what, rate, program);
   if (!what.say.empty() || !what.say_json.empty() || !what.control.empty()) {
     return live::open_speaker(what, rate, program);
   }
-  if (!what.say_audio.empty()) return live::open_voice(what, rate, program);
   Result<live::Clip> clip = options.input.empty()
                                 ? live::spoken_clip(what, rate, terminal_log())
                                 : load_clip(options.input, what.spoken.audio, what.coding);

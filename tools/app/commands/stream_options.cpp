@@ -38,9 +38,8 @@ void add_source_options(OptionTable& cli, StreamOptions& options) {
       ->needs("--say-audio");
   cli.add("--control", options.program.control,
           "Path of a Unix domain socket (mode 0600) for further lines and commands; events "
-          "are sent back on it")
-      ->value("FILE")
-      ->excludes("--say-audio");
+          "are sent back on it; with --say-audio for commands alone")
+      ->value("FILE");
   cli.add("--events", options.events,
           "Write the progress of each line, word and phone as JSON lines; - for standard "
           "output")
@@ -57,7 +56,7 @@ void add_source_options(OptionTable& cli, StreamOptions& options) {
   options.program.motion.tongue = true;
   add_tongue_option(cli, options.program.motion.tongue);
   add_mood_option(cli, options.mood);
-  add_idle_options(cli, options.idle, "default: on, but not with --say-audio");
+  add_idle_options(cli, options.idle, "default: on");
   add_over_options(cli, options.over, false);
 }
 

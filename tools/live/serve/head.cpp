@@ -36,7 +36,8 @@ Result<std::shared_ptr<Head>> Head::open(const std::string& name, const HeadSett
   const auto wake = [&loop = room.loop, beat = static_cast<const Beat*>(head.get())] {
     loop.wake(beat);
   };
-  head->lines_ = std::make_shared<HeadLines>(std::move(*maker), room.voices, room.clock, wake);
+  head->lines_ = std::make_shared<HeadLines>(std::move(*maker), room.voices, room.clock, wake,
+                                             room.most_seconds);
   auto speaker = speech::LiveSpeaker::open(*head->model_, *head->lines_, room.clock,
                                            speaker_options(settings, head->lines_->sample_rate()));
   if (!speaker) return speaker.error();
@@ -52,7 +53,22 @@ Head::~Head() { finish(); }
 
 Result<void> Head::say(std::vector<std::string> lines) { return lines_->push(std::move(lines)); }
 
+bool Head::silent() const {
+  const std::lock_guard lock(mutex_);
+  return !speaker_ || (lines_->idle() && speaker_->silent());
+}
+
+void Head::hush(const std::string& why) {
+  const std::lock_guard lock(mutex_);
+  if (!speaker_ || !sink_) return;
+  speaker_->end(why);
+  for (const speech::LineEvent& event : speaker_->take_events()) {
+    if (!sink_->tell(speech::to_json(event))) return;
+  }
+}
+
 void Head::finish() {
+  hush("the head has gone");
   if (lines_) lines_->stop();
   const std::lock_guard lock(mutex_);
   if (sink_) (void)sink_->finish();

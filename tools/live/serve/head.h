@@ -25,10 +25,11 @@ namespace animeme::serve {
 
 /// The services that a head needs; they must outlive the head.
 struct HeadRoom {
-  Voices& voices;          ///< synthesise its lines
-  web::WebServer& server;  ///< serves it
-  ClockLoop& loop;         ///< runs its steps
-  media::Clock& clock;     ///< that of the loop
+  Voices& voices;              ///< synthesise its lines
+  web::WebServer& server;      ///< serves it
+  ClockLoop& loop;             ///< runs its steps
+  media::Clock& clock;         ///< that of the loop
+  double most_seconds = 1800;  ///< of speech that may wait, see HeadLines
 };
 
 /// Statistics of a head.
@@ -59,9 +60,16 @@ class Head : public Beat {
   const HeadSettings& settings() const { return settings_; }  ///< as they were given
   /// Errors: those of HeadLines::push().
   Result<void> say(std::vector<std::string> lines);
-  /// Ends it and informs its viewers. Call ClockLoop::remove() first, so that no step runs.
+  /// Cancels what it says and was to say, with events. Call ClockLoop::remove() first, so that no
+  /// step runs.
+  void hush(const std::string& why);
+  /// Ends it, after hush(), and informs its viewers. Call ClockLoop::remove() first.
   void finish();
-  HeadFigures figures() const;  ///< now
+  bool silent() const;  ///< nothing is said, and nothing waits to be said
+  double seconds_waiting() const { return lines_->seconds(); }     ///< of speech, about
+  std::size_t lines_waiting() const { return lines_->waiting(); }  ///< lines and their parts
+  std::size_t bytes_waiting() const { return lines_->bytes(); }    ///< of text
+  HeadFigures figures() const;                                     ///< now
   double step() override;
   /// Every plane so far is added to `meter`.
   void add_lateness(media::LatenessMeter& meter) const;

@@ -9,33 +9,68 @@
 namespace animeme::serve {
 namespace {
 
-bool ends_the_head(const std::string& line) {
+constexpr double kBytesPerSecond = 14;  // of a text that is spoken at the usual speed
+
+double seconds_of(std::size_t bytes) { return double(bytes) / kBytesPerSecond; }
+
+// What a line does to the queue.
+enum class What : std::uint8_t { speaks, replaces, empties, moves, ends };
+
+What what_is(const std::string& line) {
   const Result<speech::LineCommand> command = speech::read_line(line, false);
-  return command && command->what == speech::LineCommand::Do::end;
+  if (!command) return What::moves;  // it is refused
+  switch (command->what) {
+    case speech::LineCommand::Do::say:
+      return command->when == speech::LineCommand::When::now ? What::replaces : What::speaks;
+    case speech::LineCommand::Do::mark:
+      return What::speaks;
+    case speech::LineCommand::Do::stop:
+    case speech::LineCommand::Do::drop:
+      return What::empties;
+    case speech::LineCommand::Do::end:
+      return What::ends;
+    default:
+      return What::moves;
+  }
+}
+
+// Sound takes memory, and a voice that speaks for long lets others wait.
+speech::LineMaker in_parts(speech::LineMaker maker) {
+  if (maker.cut) maker.most_bytes = std::min(maker.most_bytes, HeadLines::kPartBytes);
+  maker.one_line = true;
+  return maker;
 }
 
 }  // namespace
 
 HeadLines::HeadLines(speech::LineMaker maker, Voices& voices, media::Clock& clock,
-                     std::function<void()> changed)
-    : maker_(std::move(maker)),
+                     std::function<void()> changed, double most_seconds)
+    : maker_(in_parts(std::move(maker))),
+      most_seconds_(most_seconds),
       voices_(voices),
       clock_(clock),
-      queue_(maker_.most_bytes, maker_.cut, maker_.json),
+      queue_(maker_.most_bytes, maker_.cut, maker_.json, maker_.pieces, maker_.one_line),
       changed_(std::move(changed)) {}
 
 Result<void> HeadLines::push(std::vector<std::string> lines) {
   std::erase_if(lines, [](const std::string& line) { return line.empty(); });
-  std::size_t bytes = queue_.bytes();
+  std::size_t bytes = queue_.bytes(), count = queue_.waiting();
+  bool more = false;  // than commands that make room
   for (const std::string& line : lines) {
-    bytes += line.size();
-    if (ends_the_head(line)) {
+    const What what = what_is(line);
+    if (what == What::ends) {
       return make_error(Code::invalid_argument, "\"end\" is not supported for a head; use DELETE");
     }
+    if (what == What::empties || what == What::replaces) bytes = count = 0;
+    if (what == What::empties || what == What::moves) continue;
+    bytes += line.size();
+    ++count;
+    more = true;
   }
-  if (queue_.waiting() + lines.size() > kMostLines || bytes > kMostBytes) {
+  const bool waits = count > 1 && seconds_of(bytes) > most_seconds_;
+  if (more && (count > kMostLines || bytes > kMostBytes || waits)) {
     return make_error(Code::out_of_range,
-                      "too many lines are queued; send more when some have been spoken");
+                      "too much is queued; send more when some of it has been spoken");
   }
   Result<void> done;
   for (std::string& line : lines) {
@@ -57,6 +92,10 @@ bool HeadLines::idle() const {
 }
 
 std::size_t HeadLines::waiting() const { return queue_.waiting(); }
+
+std::size_t HeadLines::bytes() const { return queue_.bytes(); }
+
+double HeadLines::seconds() const { return seconds_of(queue_.bytes()); }
 
 std::int64_t HeadLines::given() const {
   const std::lock_guard lock(mutex_);

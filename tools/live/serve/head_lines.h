@@ -24,19 +24,24 @@ class HeadLines : public speech::LineSource, public std::enable_shared_from_this
  public:
   static constexpr std::size_t kMostLines = 1000;   ///< in the queue
   static constexpr std::size_t kMostBytes = 65536;  ///< of these
+  /// Bytes of a part of a line that is synthesised at once: some 20 s, 2 MB of sound.
+  static constexpr std::size_t kPartBytes = 300;
 
-  /// `changed` is called when take() or take_news() returns something new. Voices and clock must
-  /// outlive the lines.
+  /// `most_seconds`: of speech that may wait, besides a line of any length. `changed` is called
+  /// when take() or take_news() returns something new. Voices and clock must outlive the lines.
   HeadLines(speech::LineMaker maker, Voices& voices, media::Clock& clock,
-            std::function<void()> changed);
+            std::function<void()> changed, double most_seconds = 1800);
 
-  /// Adds lines and commands in order; empty ones are skipped. Errors: out_of_range (too many in
-  /// the queue, or a line is too long), invalid_argument ("end", which a head does not support; the
+  /// Adds lines and commands in order; empty ones are skipped. Long lines are spoken in parts.
+  /// Errors: out_of_range (too many or too much in the queue behind the last "stop" or "drop",
+  /// which are always accepted), invalid_argument ("end", which a head does not support; the
   /// message has the alternative), those of read_line(). Lines before a wrong one are executed,
   /// except for out_of_range and "end".
   Result<void> push(std::vector<std::string> lines);
   bool idle() const;            ///< no queued lines and no pending news
-  std::size_t waiting() const;  ///< lines not yet returned by take()
+  std::size_t waiting() const;  ///< lines not yet returned by take(), parts of lines included
+  std::size_t bytes() const;    ///< of these, before synthesis
+  double seconds() const;       ///< that these take to speak, about
   std::int64_t given() const;   ///< lines returned by take()
   /// Drops all lines; `changed` is not called after this returns.
   void stop();
@@ -55,6 +60,7 @@ class HeadLines : public speech::LineSource, public std::enable_shared_from_this
   void tell();
 
   const speech::LineMaker maker_;
+  const double most_seconds_;
   Voices& voices_;
   media::Clock& clock_;
   mutable speech::LineQueue queue_;

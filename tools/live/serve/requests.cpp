@@ -1,10 +1,13 @@
 // What is answered to requests that are no viewers'.
+#include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <string_view>
 
 #include "tools/formats/media/detail/tracks/words_internal.h"
 #include "tools/live/serve/figures.h"
 #include "tools/live/serve/server.h"
+#include "tools/speech/talking/line_command.h"
 
 namespace animeme::serve {
 namespace {
@@ -35,27 +38,78 @@ bool same(std::string_view one, std::string_view other) {
   return different == 0;
 }
 
-std::vector<std::string> lines_of(const std::string& body) {
+// After so many seconds it is worth asking again.
+ServerReply later(unsigned status, const std::string& why, double seconds) {
+  ServerReply refused = refusal(status, why);
+  refused.retry_after = int(std::ceil(std::clamp(seconds, 1.0, 60.0)));
+  return refused;
+}
+
+// An object without "do" is a line to say.
+std::string said(Json object) {
+  if (!object.contains("do")) object["do"] = "say";
+  return object.dump();
+}
+
+// JSON, or lines of text and commands, of which an object with a "text" is one.
+Result<std::vector<std::string>> lines_of(const std::string& body) {
   std::vector<std::string> lines;
+  const std::string whole(media::trim(body));
+  const Result<Json> json = Json::parse(whole);
+  if (json && json->is_object()) {
+    lines.push_back(said(*json));
+    return lines;
+  }
+  if (json && json->is_array()) {
+    for (const Json& line : *json) {
+      if (!line.is_object() && !line.is_string()) {
+        return make_error(Code::invalid_argument,
+                          "a list of lines has texts and objects: [\"Hello.\", {\"text\": ...}]");
+      }
+      lines.push_back(line.is_string() ? said(Json{{"text", line.text()}}) : said(line));
+    }
+    return lines;
+  }
   std::istringstream stream(body);
-  for (std::string line; std::getline(stream, line);) lines.emplace_back(media::trim(line));
+  for (std::string line; std::getline(stream, line);) {
+    line = media::trim(line);
+    if (line.starts_with('{')) {
+      const Result<Json> object = Json::parse(line);
+      if (object && object->is_object() && object->contains("text")) line = said(*object);
+    }
+    lines.push_back(std::move(line));
+  }
   return lines;
+}
+
+// Stops and the like are accepted while the server drains.
+bool speaks(const std::string& line) {
+  const Result<speech::LineCommand> command = speech::read_line(line, false);
+  return command && !line.empty() && command->what == speech::LineCommand::Do::say;
 }
 
 }  // namespace
 
 bool HeadServer::allowed(const web::ServerRequest& request) const {
-  constexpr std::string_view kBearer = "Bearer ";
+  constexpr std::string_view kBearer = "bearer ";  // in any case: RFC 9110, section 11.1
   if (options_.token.empty()) return true;
   const std::string_view given = request.authorization;
-  return given.starts_with(kBearer) && same(given.substr(kBearer.size()), options_.token);
+  if (media::lower_case(std::string(given.substr(0, kBearer.size()))) != kBearer) return false;
+  const std::size_t begin = given.find_first_not_of(' ', kBearer.size());
+  return begin != std::string_view::npos && same(given.substr(begin), options_.token);
+}
+
+ServerReply HeadServer::health() const {
+  const std::lock_guard lock(mutex_);
+  return reply(200, {{"status", draining_ ? "ending" : "ok"}, {"heads", heads_.size()}});
+}
+
+ServerReply HeadServer::ready() const {
+  const bool is_ready = !draining();
+  return reply(is_ready ? 200 : 503, {{"ready", is_ready}});
 }
 
 ServerReply HeadServer::answer(const web::ServerRequest& request) {
-  if (request.path == "/health" && request.method == "GET") {
-    const std::lock_guard lock(mutex_);
-    return reply(200, {{"status", "ok"}, {"heads", heads_.size()}});
-  }
   const bool viewer = request.method == "GET" && request.path.starts_with(kHeads) &&
                       request.path.find('/', kHeads.size()) != std::string::npos;
   if (viewer) return refusal(404, "There is no such head, or it has nothing there.");
@@ -70,7 +124,8 @@ ServerReply HeadServer::answer(const web::ServerRequest& request) {
   if (request.method != "GET") return refusal(405, "There is GET.");
   if (request.path == "/heads") return reply(200, figures());
   if (request.path == "/metrics") return {200, metrics(), "text/plain; version=0.0.4"};
-  return refusal(404, "There are /heads, /heads/NAME, /heads/NAME/say, /health and /metrics.");
+  return refusal(404,
+                 "There are /heads, /heads/NAME, /heads/NAME/say, /health, /ready and /metrics.");
 }
 
 ServerReply HeadServer::answer_head(const web::ServerRequest& request, const std::string& name) {
@@ -98,23 +153,44 @@ ServerReply HeadServer::put(const std::string& name, const std::string& body) {
   const Result<HeadSettings> settings = read_settings(*json, options_.defaults);
   if (!settings) return refusal(settings.error());
   const bool known = find(name) != nullptr;
+  if (!known && draining()) return later(503, "The server is about to end.", 1);
   const auto made = make(name, *settings);
+  if (!made && !known && made.error().code == Code::out_of_range) {
+    return later(429, made.error().describe(), 60);
+  }
   if (!made) return known ? refusal(409, made.error().message) : refusal(made.error());
   return reply(known ? 200 : 201, {{"name", name}, {"path", std::string(kHeads) + name + "/"}});
 }
 
 ServerReply HeadServer::say(const std::string& name, const std::string& body) {
-  std::vector<std::string> lines = lines_of(body);
+  Result<std::vector<std::string>> read = lines_of(body);
+  if (!read) return refusal(read.error());
+  std::vector<std::string> lines = std::move(*read);
+  const bool speech = std::any_of(lines.begin(), lines.end(), speaks);
+  if (speech && draining()) return later(503, "The server is about to end.", 1);
   std::shared_ptr<Head> head = find(name);
   if (!head && options_.make_on_say) {
     const auto made = make(name, options_.defaults);
+    if (!made && made.error().code == Code::out_of_range) {
+      return later(429, made.error().describe(), 60);
+    }
     if (!made) return refusal(made.error());
     head = *made;
   }
   if (!head) return refusal(404, "There is no such head.");
+  std::size_t bytes = body.size();
+  for (const auto& [other, each] : all()) bytes += each->bytes_waiting();
+  if (speech && bytes > options_.most_bytes) {
+    return later(429, "All heads together have too much to say; send more later.", 5);
+  }
   const std::size_t count = lines.size();
-  if (auto ok = head->say(std::move(lines)); !ok) return refusal(ok.error());
-  return reply(202, {{"lines", count}, {"waiting", head->figures().lines}});
+  if (auto ok = head->say(std::move(lines)); !ok) {
+    if (ok.error().code != Code::out_of_range) return refusal(ok.error());
+    return later(429, ok.error().describe(), head->seconds_waiting() / 2);
+  }
+  return reply(202, {{"lines", count},
+                     {"waiting", head->lines_waiting()},
+                     {"seconds_waiting", std::round(head->seconds_waiting() * 10) / 10}});
 }
 
 }  // namespace animeme::serve

@@ -27,6 +27,7 @@ Result<std::unique_ptr<HeadServer>> HeadServer::open(
     return bad("a server has 1 to 10000 heads");
   }
   if (!(options.expire >= 0)) return bad("heads cannot expire before they are made");
+  if (!(options.most_seconds >= 1)) return bad("a second of speech may wait at least");
   std::unique_ptr<HeadServer> server(new HeadServer(options));
   voice::keep_voices();  // one thread speaks: that of the voices
   try {
@@ -39,7 +40,9 @@ Result<std::unique_ptr<HeadServer>> HeadServer::open(
     // Processes of voices begin as copies of this one: the first one while it is small.
     Result<speech::LineMaker> voice = server->voices_->maker(options.defaults.voice);
     if (!voice) return voice.error();
-    server->answering_ = std::thread([raw = server.get()] { raw->answer_all(); });
+    for (Desk* desk : {&server->others_, &server->makers_}) {
+      desk->thread = std::thread([raw = server.get(), desk] { raw->answer_all(*desk); });
+    }
   } catch (const std::system_error&) {
     return make_error(Code::io, "no threads can be started for the heads");
   }
@@ -66,8 +69,10 @@ HeadServer::~HeadServer() {
     stopping_ = true;
   }
   if (server_) finish();
-  changed_.notify_all();
-  if (answering_.joinable()) answering_.join();
+  for (Desk* desk : {&others_, &makers_}) {
+    desk->changed.notify_all();
+    if (desk->thread.joinable()) desk->thread.join();
+  }
   for (const auto& [name, head] : all()) head->finish();
   const std::lock_guard lock(mutex_);
   heads_.clear();
@@ -172,39 +177,75 @@ void HeadServer::look() {
   for (const std::string& name : old) remove(name);
 }
 
+void HeadServer::drain() {
+  const std::lock_guard lock(mutex_);
+  draining_ = true;
+}
+
+bool HeadServer::draining() const {
+  const std::lock_guard lock(mutex_);
+  return draining_;
+}
+
+bool HeadServer::silent() const {
+  const auto heads = all();
+  return std::all_of(heads.begin(), heads.end(),
+                     [](const auto& one) { return one.second->silent(); });
+}
+
 void HeadServer::finish() {
   {
     const std::lock_guard lock(mutex_);
-    stopping_ = true;
+    stopping_ = draining_ = true;
   }
-  changed_.notify_all();
-  if (answering_.joinable()) answering_.join();
-  for (const auto& [name, head] : all()) loop_->remove(head.get());
+  for (Desk* desk : {&others_, &makers_}) {
+    desk->changed.notify_all();
+    if (desk->thread.joinable()) desk->thread.join();
+  }
+  for (const auto& [name, head] : all()) {
+    loop_->remove(head.get());
+    head->hush("the server ends");
+  }
   server_->finish();
+}
+
+bool HeadServer::makes_a_head(const web::ServerRequest& request) const {
+  constexpr std::string_view kPath = "/heads/", kSaying = "/say";
+  if (!request.path.starts_with(kPath)) return false;
+  if (request.method != "PUT" && request.method != "POST") return false;
+  std::string name = request.path.substr(kPath.size());
+  if (!name.ends_with(kSaying)) return true;
+  name.resize(name.size() - kSaying.size());
+  return options_.make_on_say && !heads_.contains(name);
 }
 
 // In the thread of the server.
 void HeadServer::ask(web::ServerRequest request, web::ServerAnswer answer) {
+  if (request.method == "GET" && request.path == "/health") return answer(health());
+  if (request.method == "GET" && request.path == "/ready") return answer(ready());
   {
     const std::lock_guard lock(mutex_);
-    if (!stopping_ && server_ && asked_.size() < kMostAsked) {
-      asked_.push_back({std::move(request), std::move(answer)});
-      changed_.notify_one();
+    Desk& desk = makes_a_head(request) ? makers_ : others_;
+    if (!stopping_ && server_ && desk.asked.size() < kMostAsked) {
+      desk.asked.push_back({std::move(request), std::move(answer)});
+      desk.changed.notify_one();
       return;
     }
   }
-  answer({503, "{\"error\": \"The server is busy or about to end; try again.\"}\n"});
+  web::ServerReply busy{503, "{\"error\": \"The server is busy or about to end; try again.\"}\n"};
+  busy.retry_after = 1;
+  answer(std::move(busy));
 }
 
-void HeadServer::answer_all() {
+void HeadServer::answer_all(Desk& desk) {
   std::unique_lock lock(mutex_);
   while (!stopping_) {
-    if (asked_.empty()) {
-      changed_.wait(lock);
+    if (desk.asked.empty()) {
+      desk.changed.wait(lock);
       continue;
     }
-    const Asked asked = std::move(asked_.front());
-    asked_.pop_front();
+    const Asked asked = std::move(desk.asked.front());
+    desk.asked.pop_front();
     lock.unlock();
     try {
       asked.answer(answer(asked.request));

@@ -35,9 +35,11 @@ struct ServerOptions {
   int most_heads = 200;  ///< maximum number of heads, 1..10000
   /// Seconds that a head created by a request sleeps before it is deleted; 0: never.
   double expire = 900;
-  bool make_on_say = false;                   ///< saying something to a missing head creates it
-  HeadSettings defaults;                      ///< defaults for heads
-  std::map<std::string, std::string> models;  ///< files of models, by name
+  double most_seconds = 1800;                     ///< of speech that may wait for a head, 1 or more
+  std::size_t most_bytes = std::size_t(4) << 20;  ///< of text that may wait for all of them
+  bool make_on_say = false;                       ///< saying something to a missing head creates it
+  HeadSettings defaults;                          ///< defaults for heads
+  std::map<std::string, std::string> models;      ///< files of models, by name
   int threads = 0;  ///< for generating planes and packets; 0: one per core
   MakerOf voices;   ///< empty: speech::voice_lines()
 };
@@ -61,8 +63,14 @@ class HeadServer {
                                      bool expires = true);
   std::shared_ptr<Head> find(const std::string& name) const;  ///< null: not found
   bool remove(const std::string& name);                       ///< false: not found
-  void look();    ///< deletes heads that have slept too long; call once a second
-  void finish();  ///< informs all viewers and stops serving; takes at most two seconds
+  /// No new heads and lines from now on: they are refused with 503, as /ready is. What was accepted
+  /// is still spoken.
+  void drain();
+  bool silent() const;  ///< nothing is said, and nothing waits to be said
+  void look();          ///< deletes heads that have slept too long; call once a second
+  /// Cancels what is left to say, with events, tells all viewers to come back (1001), and stops
+  /// serving; takes at most two seconds.
+  void finish();
   tools::Json figures() const;  ///< GET /heads
   std::string metrics() const;  ///< GET /metrics, in the text format of Prometheus
 
@@ -77,15 +85,28 @@ class HeadServer {
   };
   explicit HeadServer(const ServerOptions& options);
 
+  // Requests that wait for a thread of their own: those that make heads wait for voices and models,
+  // others for nothing.
+  struct Desk {
+    std::deque<Asked> asked;
+    std::condition_variable changed;
+    std::thread thread;
+  };
   void ask(web::ServerRequest request, web::ServerAnswer answer);
-  void answer_all();
+  void answer_all(Desk& desk);
+  bool makes_a_head(const web::ServerRequest& request) const;
+  web::ServerReply health() const;
+  web::ServerReply ready() const;
+  bool draining() const;
   web::ServerReply answer(const web::ServerRequest& request);
   web::ServerReply answer_head(const web::ServerRequest& request, const std::string& name);
   web::ServerReply put(const std::string& name, const std::string& body);
   web::ServerReply say(const std::string& name, const std::string& body);
   bool allowed(const web::ServerRequest& request) const;
   Result<std::shared_ptr<const dam::Model>> model(const std::string& name);
-  HeadRoom room() { return {*voices_, *server_, *loop_, media::steady_clock()}; }
+  HeadRoom room() {
+    return {*voices_, *server_, *loop_, media::steady_clock(), options_.most_seconds};
+  }
   void end(const std::shared_ptr<Head>& head);
   std::vector<std::pair<std::string, std::shared_ptr<Head>>> all() const;
 
@@ -102,10 +123,8 @@ class HeadServer {
   std::size_t most_ = 0;            // heads at the same time
   media::LatenessMeter gone_late_;  // of heads that have gone
   std::int64_t gone_planes_ = 0;
-  std::deque<Asked> asked_;
-  bool stopping_ = false;
-  std::condition_variable changed_;
-  std::thread answering_;
+  bool stopping_ = false, draining_ = false;
+  Desk others_, makers_;
 };
 
 }  // namespace animeme::serve

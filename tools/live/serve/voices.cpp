@@ -34,6 +34,15 @@ void Voices::post(std::function<void()> job) {
   changed_.notify_one();
 }
 
+void Voices::post_first(std::function<void()> job) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (stopping_) return;
+    jobs_.push_front(std::move(job));
+  }
+  changed_.notify_one();
+}
+
 Result<speech::LineMaker> Voices::find(const voice::VoiceOptions& options) {
   const std::string key =
       tools::format("%s %d %d", options.language.c_str(), options.words_per_minute, options.pitch);
@@ -49,7 +58,7 @@ Result<speech::LineMaker> Voices::find(const voice::VoiceOptions& options) {
 Result<speech::LineMaker> Voices::maker(const voice::VoiceOptions& options) {
   auto promise = std::make_shared<std::promise<Result<speech::LineMaker>>>();
   std::future<Result<speech::LineMaker>> made = promise->get_future();
-  post([this, options, promise = std::move(promise)] {
+  post_first([this, options, promise = std::move(promise)] {
     try {
       promise->set_value(find(options));
     } catch (const std::exception& problem) {

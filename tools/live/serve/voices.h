@@ -32,12 +32,14 @@ class Voices {
   Voices(const Voices&) = delete;
   Voices& operator=(const Voices&) = delete;
 
-  /// Waits for the jobs before it. Errors: those of `maker_of`; io (already ended).
+  /// Waits for the running job, not for those that wait. Errors: those of `maker_of`; io (already
+  /// ended).
   Result<speech::LineMaker> maker(const voice::VoiceOptions& options);
   /// Queues `job` for the thread. It must not throw.
   void post(std::function<void()> job);
 
  private:
+  void post_first(std::function<void()> job);
   void run();
   Result<speech::LineMaker> find(const voice::VoiceOptions& options);
 

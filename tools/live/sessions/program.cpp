@@ -154,6 +154,23 @@ Result<void> open_voice(const ProgramOptions& options, fap::Rate rate, Program& 
   settings.audio.reset();
   if (options.coding.sound) settings.audio = options.coding.audio;
   settings.duration = options.duration;
+  settings.idle_motion = options.idle_motion;
+  settings.idle = options.idle;
+  settings.mood = options.mood;
+  if (!options.control.empty()) {
+    auto control = speech::ControlSocket::open(options.control);
+    if (!control) return control.error();
+    program.control = std::move(*control);
+    speech::LineMaker none;
+    none.make = [](const std::string&, const speech::Wanted&) -> Result<speech::SpokenLine> {
+      return make_error(Code::unsupported, "with --say-audio the sound is what is said");
+    };
+    auto lines =
+        speech::VoiceLines::open(-1, std::move(none), media::steady_clock(), program.control.get());
+    if (!lines) return lines.error();
+    program.lines = std::move(*lines);
+    settings.commands = program.lines.get();
+  }
   auto voice = speech::LiveVoice::open(
       program.model, options.say_audio == "-" ? STDIN_FILENO : program.descriptor, settings);
   if (!voice) return voice.error().in_file(name);

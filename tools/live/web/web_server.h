@@ -32,6 +32,7 @@ struct ServerReply {
   unsigned status = 200;                  ///< of HTTP
   std::string body;                       ///< not empty; not sent for HEAD
   std::string type = "application/json";  ///< its media type
+  int retry_after = 0;  ///< seconds after which to ask again, for 429 and 503; 0: not said
 };
 
 /// Sends the response; call once, from any thread. Ignored if the client or the server is gone.
@@ -66,7 +67,9 @@ class WebServer {
   virtual std::unique_ptr<WebSink> make_sink(const std::string& path,
                                              std::function<void()> joined) = 0;
   virtual int viewers() const = 0;  ///< of all presentations
-  /// Sends all viewers their queue and the end, within two seconds, and stops serving.
+  /// Sends all viewers their queue and the end, within two seconds, and stops serving. Sockets
+  /// close with 1001, the server goes away: viewers connect again, to the server that comes after
+  /// it.
   virtual void finish() = 0;
 };
 

@@ -361,7 +361,7 @@ class SharedServer : public WebServer {
     return std::make_unique<Sink>(address_, options_, server_, path, std::move(joined));
   }
   int viewers() const override { return server_->viewers(); }
-  void finish() override { server_->finish(); }
+  void finish() override { server_->finish(true); }
 
  private:
   std::shared_ptr<Server> server_;

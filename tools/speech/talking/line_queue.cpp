@@ -13,7 +13,8 @@ namespace animeme::speech {
 namespace {
 
 constexpr std::size_t kMostMade = 4;  // lines that are made and wait: a voice is faster than speech
-constexpr std::size_t kMostKept = 8;  // such lines when others are put before them
+constexpr double kMostMadeSeconds = 20;  // of speech, which takes memory
+constexpr std::size_t kMostKept = 8;     // such lines when others are put before them
 constexpr std::size_t kQueueBytes = std::size_t(64) << 20;
 constexpr std::size_t kQueueLines = 100000;
 constexpr std::size_t kMostGone = 4;  // pieces that were taken and may get words
@@ -118,7 +119,9 @@ void LineQueue::say(LineCommand command, double arrived) {
   if (command.when == LineCommand::When::next) {
     place = std::find_if(entries_.begin(), entries_.end(), [](const Entry& e) { return !e.mark; });
   }
-  const std::uint64_t whole = parts.size() > 1 && !command.id.empty() ? number_ : 0;
+  const bool one = one_line_ || !command.id.empty();
+  const std::uint64_t whole = parts.size() > 1 && one ? number_ : 0;
+  if (whole > 0 && command.id.empty()) command.id = std::to_string(number_);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (i > 0) ++number_;
     Entry entry{.line = number_, .id = command.id, .arrived = arrived};
@@ -269,12 +272,14 @@ std::optional<LineQueue::Job> LineQueue::look_for_job() {
     if (gone.stale) return Job{gone.line, {}, gone.piece, {}, true};
   }
   std::size_t ahead = 0;
+  double seconds = 0;
   for (const Entry& entry : entries_) {
     if (entry.mark) continue;
     if (!entry.speech || entry.stale) {
       return Job{entry.line, entry.payload, entry.piece, entry.language, false};
     }
-    if (++ahead == kMostMade) break;
+    seconds += entry.speech->speech.audio.duration();
+    if (++ahead == kMostMade || seconds >= kMostMadeSeconds) break;
   }
   return std::nullopt;
 }

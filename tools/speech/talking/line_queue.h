@@ -25,10 +25,14 @@ namespace animeme::speech {
 /// Thread safe.
 class LineQueue : public LineSource {
  public:
-  /// `most_bytes`, `cut`, `json`, `pieces`: as LineMaker.
+  /// The members of LineMaker.
   LineQueue(std::size_t most_bytes, bool cut, bool json,
-            std::shared_ptr<PieceStream> pieces = nullptr)
-      : most_bytes_(most_bytes), cut_(cut), json_(json), pieces_(std::move(pieces)) {}
+            std::shared_ptr<PieceStream> pieces = nullptr, bool one_line = false)
+      : most_bytes_(most_bytes),
+        cut_(cut),
+        json_(json),
+        one_line_(one_line),
+        pieces_(std::move(pieces)) {}
 
   /// Adds a line of the input without surrounding blanks; ignores empty lines. Errors: those of
   /// read_line(), which are also warnings (take_warnings()).
@@ -49,7 +53,7 @@ class LineQueue : public LineSource {
     bool words = false;       ///< only PieceStream::words() are wanted
   };
   /// The next line to synthesise, in the order in which they will be spoken. Waits while four
-  /// synthesised lines are queued before it. nullopt: leave() was called.
+  /// synthesised lines, or 20 s of speech, are queued before it. nullopt: leave() was called.
   std::optional<Job> next_job();
   /// The same without waiting.
   std::optional<Job> try_job();
@@ -104,7 +108,7 @@ class LineQueue : public LineSource {
   void tell(LineNews::What what, const Entry& entry, const std::string& why, double at);
 
   const std::size_t most_bytes_;
-  const bool cut_, json_;
+  const bool cut_, json_, one_line_;
   const std::shared_ptr<PieceStream> pieces_;
 
   std::mutex mutex_;  // guards what follows

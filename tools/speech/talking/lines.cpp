@@ -49,7 +49,7 @@ struct VoiceLines::Impl {
   Impl(LineMaker making, media::Clock& time)
       : maker(std::move(making)),
         clock(&time),
-        queue(maker.most_bytes, maker.cut, maker.json, maker.pieces) {}
+        queue(maker.most_bytes, maker.cut, maker.json, maker.pieces, maker.one_line) {}
   ~Impl() {
     queue.leave();
     if (wake[1] >= 0) ::close(wake[1]);

@@ -94,10 +94,11 @@ struct LineMaker {
   std::function<Result<SpokenLine>(std::string line, const std::string& language,
                                    const Wanted& wanted)>
       make_in = nullptr;
-  int sample_rate = 22050;              ///< Hz; other rates of lines are converted
-  std::size_t most_bytes = 4000;        ///< maximum size of a line
-  bool cut = true;                      ///< longer lines are cut behind a sentence; false: skipped
-  bool json = false;                    ///< lines are pieces (pieces.h), not text
+  int sample_rate = 22050;        ///< Hz; other rates of lines are converted
+  std::size_t most_bytes = 4000;  ///< maximum size of a line
+  bool cut = true;                ///< longer lines are cut behind a sentence; false: skipped
+  bool json = false;              ///< lines are pieces (pieces.h), not text
+  bool one_line = false;          ///< the parts of a longer line are one line, also without a name
   std::shared_ptr<PieceStream> pieces;  ///< makes them, in place of `make`; null: none
 };
 

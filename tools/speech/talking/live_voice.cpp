@@ -22,9 +22,16 @@ constexpr double kLeastLiveDelay = 0.25, kMostLiveDelay = 2;
 // Of the delay: sound may come so much later than the sound before. What comes later still moves
 // the sound back, up to the whole of the delay.
 constexpr double kJitter = 0.06;
-constexpr double kGrain = 0.015;     // of the delay: frames are looked for every 10 ms
-constexpr double kEndRest = 0.4;     // seconds after the last sound, to close the mouth
-constexpr double kVoiceFade = 0.02;  // seconds, of sound that breaks off
+constexpr double kGrain = 0.015;        // of the delay: frames are looked for every 10 ms
+constexpr double kEndRest = 0.4;        // seconds after the last sound, to close the mouth
+constexpr double kVoiceFade = 0.02;     // seconds, of sound that breaks off
+constexpr double kMouthCloses = 0.12;   // seconds, where a command ends the voice
+constexpr double kMouthReturns = 0.08;  // seconds in which the next sound may open it
+constexpr double kReaches = 0.3;        // seconds that sound bears on the mouth behind its end
+constexpr std::size_t kComing = 3;      // frames in which new sound begins
+constexpr double kHeld = 0.3;           // seconds of silence inside of speech
+constexpr double kQuiet = 0.004;        // of full scale: below it nothing is said
+constexpr double kShutGap = 30;         // FAP units: lips that are nearly closed
 
 Result<void> check(const LiveVoiceOptions& options) {
   if (options.delay >= kLeastLiveDelay && options.delay <= kMostLiveDelay) return {};
@@ -51,6 +58,23 @@ struct LiveVoice::Impl {
   bool starved = false;           // nothing came in time
   std::vector<float> held;        // what has come since, until it is enough to go on with
 
+  TalkingFace life;         // what moves besides the mouth
+  fap::Frame rest;          // a mouth that says nothing
+  fap::Frame mouth = rest;  // as shown last
+  LineEvents events = {};
+  std::int64_t heard = 0;  // samples of the voice that have a place
+  struct Mark {
+    std::string id;
+    std::int64_t at = 0;  // samples of the voice before it
+  };
+  std::deque<Mark> marks = {};
+  std::deque<double> loudness = {};  // sums of squares of frames, from `first_loud` on
+  std::int64_t first_loud = 0;
+  double spoke = -1;                        // seconds: when the voice was last heard
+  double closed_from = -1, closed_to = -1;  // seconds in which a command has closed the mouth
+  bool closed = false;                      // likewise
+  fap::Frame closing = rest;                // from which it began to
+
   double frame_due() const { return double(number * frame_ticks) / info.timescale; }
   double sound_due() const {
     if (!sound) return std::numeric_limits<double>::infinity();
@@ -58,16 +82,28 @@ struct LiveVoice::Impl {
   }
   Result<void> fill(double now);
   Result<void> wait_for_more();
-  Result<void> lay(std::vector<float> samples);
+  Result<void> lay(std::vector<float> samples, bool voice = true);
+  void listen(std::int64_t start, const std::vector<float>& samples);
+  void collect(double now);
+  void follow(const LineNews& news, double time);
+  void discard(bool now);
+  void reach_marks(bool all);
+  fap::Frame shown(fap::Frame frame);
+  dam::MoodMouth::Shares sounds(const fap::Frame& frame);
   Result<LiveUnit> make_plane();
 };
 
 // Gives the next samples their place in time.
-Result<void> LiveVoice::Impl::lay(std::vector<float> samples) {
+Result<void> LiveVoice::Impl::lay(std::vector<float> samples, bool voice) {
   if (samples.empty()) return {};
   face->push(samples);
   const std::int64_t start = mixed;
   mixed += std::int64_t(samples.size());
+  if (voice) {
+    heard += std::int64_t(samples.size());
+    reach_marks(false);
+  }
+  listen(start, samples);
   if (sound) sound->add(start, std::move(samples));
   const Result<dam::Signal> made = face->pull();
   if (!made) return made.error();
@@ -87,13 +123,16 @@ Result<void> LiveVoice::Impl::fill(double now) {
   } else {
     if (auto ok = lay(pipe->take(until(now + options.delay))); !ok) return ok;
   }
-  if (!end && held.empty() && pipe->over()) end = std::max(double(mixed) / rate, now) + kEndRest;
+  if (!end && held.empty() && pipe->over()) {
+    end = std::max(double(mixed) / rate, now) + kEndRest;
+    reach_marks(true);
+  }
   // What has not come by now is silence.
   const std::size_t missing = until(now + options.delay - kJitter);
   if (missing == 0) return {};
   if (!starved && sound) sound->end_at(mixed, std::llround(kVoiceFade * rate));
   starved = true;
-  return lay(std::vector<float>(missing, 0.0f));
+  return lay(std::vector<float>(missing, 0.0f), false);
 }
 
 // A voice that has broken off goes on when there is as much of it as it may come late: else the
@@ -111,14 +150,156 @@ Result<void> LiveVoice::Impl::wait_for_more() {
   return lay(std::exchange(held, {}));
 }
 
+// How loud each frame is.
+void LiveVoice::Impl::listen(std::int64_t start, const std::vector<float>& samples) {
+  const double a_frame = double(frame_ticks) / info.timescale * rate;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const auto frame = std::int64_t(double(start + std::int64_t(i)) / a_frame) - first_loud;
+    if (frame < 0) continue;
+    if (loudness.size() <= std::size_t(frame)) loudness.resize(std::size_t(frame) + 1, 0.0);
+    loudness[std::size_t(frame)] += double(samples[i]) * double(samples[i]) / a_frame;
+  }
+}
+
+void LiveVoice::Impl::collect(double now) {
+  if (options.commands == nullptr) return;
+  const double time = std::min(now, frame_due());
+  while (auto line = options.commands->take(false)) {
+    if (!line->mark) continue;  // there are no other lines
+    marks.push_back({line->id, heard + std::int64_t(held.size() + pipe->waiting())});
+  }
+  for (const LineNews& news : options.commands->take_news()) follow(news, time);
+  reach_marks(false);
+  // "end": what has come is presented.
+  if (options.commands->ended() && !end) {
+    end = double(mixed + std::int64_t(pipe->waiting())) / rate + kEndRest;
+  }
+}
+
+// Marks behind sound that has a place, or all of them where the sound has ended.
+void LiveVoice::Impl::reach_marks(bool all) {
+  while (!marks.empty() && (all || marks.front().at <= heard)) {
+    LineEvent mark{.what = LineEvent::What::mark, .time = double(mixed) / rate, .id = {}};
+    mark.time = std::max(mark.time, frame_due());
+    mark.text = marks.front().id;
+    events.add(std::move(mark));
+    marks.pop_front();
+  }
+}
+
+void LiveVoice::Impl::follow(const LineNews& news, double time) {
+  LineEvent event{.time = time, .line = news.line, .id = news.id};
+  switch (news.what) {
+    case LineNews::What::queued:
+      event.what = LineEvent::What::queued;
+      event.text = news.text;
+      break;
+    case LineNews::What::cancelled:
+      event.what = LineEvent::What::cancelled;
+      event.why = news.why;
+      if (news.mark) event.line = 0;
+      break;
+    case LineNews::What::stopped:
+    case LineNews::What::dropped: {
+      const bool stopped = news.what == LineNews::What::stopped;
+      events.add(
+          {.what = stopped ? LineEvent::What::stopped : LineEvent::What::dropped, .time = time});
+      if (stopped) events.cut(time, news.line, "stopped");
+      for (const Mark& mark : marks) {
+        LineEvent cancelled{.what = LineEvent::What::cancelled, .time = time, .id = mark.id};
+        cancelled.why = stopped ? "stopped" : "dropped";
+        events.add(std::move(cancelled));
+      }
+      marks.clear();
+      discard(stopped);
+      return;
+    }
+    case LineNews::What::look:
+      life.look(news.target);
+      return;
+    case LineNews::What::activity:
+      life.set_activity(news.activity);
+      return;
+    case LineNews::What::mood:
+      life.set_mood(news.mood);
+      return;
+    default:
+      return;
+  }
+  events.add(std::move(event));
+}
+
+// Nothing that was sent before is heard. `now`: neither is what has a place already.
+void LiveVoice::Impl::discard(bool now) {
+  pipe->discard();
+  held.clear();
+  const auto fade = std::llround(kVoiceFade * rate);
+  if (!now) {
+    if (!starved && sound) sound->end_at(mixed, fade);
+    starved = true;
+    return;
+  }
+  starved = true;
+  if (sound) sound->end_at(sound->made() + fade, fade);
+  if (frame_due() >= closed_to) {
+    closed_from = frame_due();
+    closing = mouth;
+  }
+  closed_to = std::max(double(mixed) / rate, closed_from + kMouthCloses);
+  closed = true;
+  for (double& one : loudness) one = 0;
+}
+
+// A mouth that a command has closed.
+fap::Frame LiveVoice::Impl::shown(fap::Frame frame) {
+  const double time = frame_due(), step = double(frame_ticks) / info.timescale;
+  // The old sound bears on the mouth a little longer; new sound opens it.
+  if (closed && time >= closed_to) {
+    double loudest = 0;
+    for (std::size_t i = 0; i < std::min(kComing, loudness.size()); ++i) {
+      loudest = std::max(loudest, std::sqrt(loudness[i]));
+    }
+    closed = loudest <= kQuiet && time < closed_to + kReaches;
+    if (!closed) closed_to = time;
+  }
+  if (closed || (closed_from >= 0 && time < closed_to + kMouthReturns)) {
+    const double left = std::max(0.0, 1 - (time - closed_from + step) / kMouthCloses);
+    const double opens =
+        closed ? 0 : std::clamp((time - closed_to + step) / kMouthReturns, 0.0, 1.0);
+    for (std::size_t f = fap::kFirstLowLevel; f <= fap::kFapCount; ++f) {
+      if (!frame.mask[f]) continue;
+      const double still = rest.value[f];
+      frame.value[f] = int(std::lround(still + left * (closing.value[f] - still) +
+                                       opens * (frame.value[f] - still)));
+    }
+  }
+  mouth = frame;
+  return frame;
+}
+
+// What moods leave to the mouth, as far as it can be seen.
+dam::MoodMouth::Shares LiveVoice::Impl::sounds(const fap::Frame& frame) {
+  const double level = loudness.empty() ? 0 : std::sqrt(loudness.front());
+  if (!loudness.empty()) loudness.pop_front();
+  first_loud = number + 1;
+  if (level > kQuiet) spoke = frame_due();
+  dam::MoodMouth::Shares shares;
+  if (spoke < 0 || frame_due() - spoke > kHeld) return shares;
+  shares.speech = 1;
+  const double gap = -double(frame.value[4] + frame.value[5]);  // lower and upper inner lip
+  if (level > kQuiet) shares.shut = std::clamp(1 - gap / kShutGap, 0.0, 1.0);
+  return shares;
+}
+
 Result<LiveUnit> LiveVoice::Impl::make_plane() {
   LiveUnit unit;
   unit.track = LiveTrack::face;
   unit.time = number * frame_ticks;
   unit.duration = frame_ticks;
   if (frames.empty()) return make_error(Code::io, "the face was not ready in time");
-  fap::Frame frame = std::move(frames.front());
+  fap::Frame frame = shown(std::move(frames.front()));
   frames.pop_front();
+  frame = life.accompany(frame, sounds(frame));
   frame.number = number++;
   Result<std::vector<std::uint8_t>> bytes = encoder.write(frame);
   if (!bytes) return bytes.error();
@@ -150,6 +331,15 @@ Result<std::unique_ptr<LiveVoice>> LiveVoice::open(const dam::Model& model,
   still.synthesis.tongue = false;
   Result<TalkingFace> resting = TalkingFace::open(model, still);
   if (!resting) return resting.error();
+  const Result<fap::Frame> rest = resting->next();
+  if (!rest) return rest.error();
+  still.idle_motion = options.idle_motion;
+  still.idle = options.idle;
+  still.mood = options.mood;
+  // Without quantisation, angles end at one degree.
+  if (options.fap_quant == 0) still.idle.still.gaze = still.idle.still.head = true;
+  Result<TalkingFace> life = TalkingFace::open(model, still);
+  if (!life) return life.error();
   VoiceDrivenFaceOptions following{options.synthesis, options.language,
                                    options.delay - kJitter - kGrain};
   auto face = VoiceDrivenFace::open(model, rate, following);
@@ -161,9 +351,9 @@ Result<std::unique_ptr<LiveVoice>> LiveVoice::open(const dam::Model& model,
     sound = std::move(*opened);
   }
   const fba::LiveOptions coding =
-      coding_of_face(model, *resting, options.synthesis.rate, options.fap_quant,
-                     options.intra_seconds, options.coding_delay);
-  Result<FaceShape> shape = shape_of_face(coding, *resting);
+      coding_of_face(model, *life, options.synthesis.rate, options.fap_quant, options.intra_seconds,
+                     options.coding_delay);
+  Result<FaceShape> shape = shape_of_face(coding, *life);
   if (!shape) return shape.error();
   media::LiveInfo info = std::move(shape->info);
   if (sound) info.audio = sound->format();
@@ -174,7 +364,9 @@ Result<std::unique_ptr<LiveVoice>> LiveVoice::open(const dam::Model& model,
                                           .sound = std::move(sound),
                                           .encoder = fba::LiveEncoder(coding),
                                           .info = std::move(info),
-                                          .frame_ticks = shape->frame_ticks});
+                                          .frame_ticks = shape->frame_ticks,
+                                          .life = std::move(*life),
+                                          .rest = *rest});
   return std::unique_ptr<LiveVoice>(new LiveVoice(std::move(impl)));
 }
 
@@ -193,6 +385,7 @@ std::optional<double> LiveVoice::next_due() {
 
 Result<std::vector<LiveUnit>> LiveVoice::take(double now) {
   std::vector<LiveUnit> units;
+  impl_->collect(now);
   if (auto ok = impl_->fill(now); !ok) return ok.error();
   for (;;) {
     const bool sound_first = impl_->sound_due() <= impl_->frame_due();
@@ -215,6 +408,29 @@ Result<std::vector<LiveUnit>> LiveVoice::take(double now) {
       if (!unit->bytes.empty()) units.push_back(std::move(*unit));
     }
   }
+}
+
+void LiveVoice::sent(const LiveUnit& unit, double instant) {
+  (void)instant;
+  if (unit.track != LiveTrack::face) return;
+  impl_->events.tell(media::seconds_of(impl_->info, unit.track, unit.time));
+}
+
+std::vector<LineEvent> LiveVoice::take_events() { return impl_->events.take(); }
+
+void LiveVoice::end(const std::string& why) {
+  if (impl_->options.commands == nullptr) return;
+  const double time = impl_->frame_due();
+  impl_->options.commands->abandon(why);
+  impl_->collect(time);
+  for (const Impl::Mark& mark : impl_->marks) {
+    // Sound that has ended before its mark is reached brings it about.
+    LineEvent event{.what = LineEvent::What::cancelled, .time = time, .id = mark.id};
+    event.why = why;
+    impl_->events.add(std::move(event));
+  }
+  impl_->marks.clear();
+  impl_->events.tell(std::numeric_limits<double>::infinity());
 }
 
 std::vector<std::string> LiveVoice::take_warnings() {

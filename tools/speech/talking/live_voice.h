@@ -4,8 +4,13 @@
 ///
 /// Sound and face are presented together, LiveVoiceOptions::delay seconds after the sound arrives.
 /// If sound is late, the voice fades out and the mouth rests, and both continue when 60 ms have
-/// arrived; sound that arrives early waits in the pipe. Nothing is dropped, so each pause of the
-/// sender that is longer than 60 ms delays what follows.
+/// arrived; sound that arrives early waits in the pipe. Nothing is dropped but by a command, so
+/// each pause of the sender that is longer than 60 ms delays what follows.
+///
+/// Commands (line_command.h) come by a LineSource: "stop" drops all sound that was sent before it,
+/// also what waits in the pipe, and closes the mouth; "drop" leaves what was about to be heard;
+/// "mark" is reached when all that had come before it is heard; mood, look, listen, think, idle and
+/// end are as for lines. Text is not spoken: the line is cancelled.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +21,14 @@
 #include <vector>
 
 #include "dam/model/model.h"
+#include "dam/script/mood.h"
+#include "dam/speaking/idle_motion.h"
 #include "dam/speaking/synthesise.h"
 #include "fap/result.h"
 #include "tools/formats/media/encoded_audio.h"
 #include "tools/formats/media/live/presentation.h"
+#include "tools/speech/talking/line_events.h"
+#include "tools/speech/talking/lines.h"
 #include "tools/speech/talking/sound_bytes.h"
 #include "tools/speech/talking/sound_pipe.h"
 
@@ -38,6 +47,11 @@ struct LiveVoiceOptions {
   std::optional<media::AudioSettings> audio = media::AudioSettings{};
   double audio_ahead = 0.02;  ///< seconds by which sound is sent early, 0..0.1
   double duration = std::numeric_limits<double>::infinity();  ///< seconds until the end
+  bool idle_motion = false;     ///< gaze, blinks, brows and head, see FaceOptions
+  dam::IdleMotionOptions idle;  ///< of these; `prosody` is not used
+  dam::Mood mood;               ///< at the beginning
+  /// Where commands come from; must outlive the voice; null: there are none.
+  LineSource* commands = nullptr;
 };
 
 /// Reads sound in a separate thread. Not thread safe.
@@ -61,6 +75,11 @@ class LiveVoice : public media::LiveInput {
   /// Ends when the sound has ended and been presented, or at the duration.
   std::optional<double> next_due() override;
   Result<std::vector<media::LiveUnit>> take(double now) override;
+  void sent(const media::LiveUnit& unit, double instant) override;
+  /// Events up to the last sent frame, in order, since the last call: of commands.
+  std::vector<LineEvent> take_events();
+  /// Ends: what the commands wait for is cancelled, with events from take_events().
+  void end(const std::string& why);
   /// Warnings since the last call, such as sound that was interrupted.
   std::vector<std::string> take_warnings();
 

@@ -1,6 +1,7 @@
 #include "tools/speech/talking/sound_pipe.h"
 
 #include <poll.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -31,6 +32,8 @@ struct SoundPipe::Impl {
   std::deque<float> samples;
   std::optional<Error> error;
   int rate = 0;
+  unsigned discarded = 0;     // calls of discard()
+  std::size_t old_bytes = 0;  // in the pipe, to be dropped when they are read
   bool ended = false;
   std::atomic<bool> stop = false;
   std::thread thread;
@@ -48,13 +51,27 @@ struct SoundPipe::Impl {
       pollfd wanted{descriptor, POLLIN, 0};
       const int ready = ::poll(&wanted, 1, kWaitMs);
       if (ready == 0 || (ready < 0 && errno == EINTR)) continue;
-      const ssize_t got = ready < 0 ? -1 : ::read(descriptor, block.data(), block.size());
+      unsigned read_at = 0;  // how often was discarded before
+      ssize_t got = -1;
+      {
+        const std::lock_guard lock(mutex);  // what discard() counts is not being read
+        read_at = discarded;
+        if (ready > 0) got = ::read(descriptor, block.data(), block.size());
+      }
       if (got < 0 && (errno == EINTR || errno == EAGAIN)) continue;
       some.clear();
       Result<void> good;
       if (got > 0) good = bytes.push(std::span(block).first(std::size_t(got)), some);
       const std::lock_guard lock(mutex);
       rate = bytes.sample_rate();
+      if (read_at != discarded) {
+        some.clear();  // it came before
+      } else if (old_bytes > 0 && got > 0) {
+        const auto old = std::min(old_bytes, std::size_t(got));
+        old_bytes -= old;
+        some.erase(some.begin(),
+                   some.begin() + std::ptrdiff_t(some.size() * old / std::size_t(got)));
+      }
       samples.insert(samples.end(), some.begin(), some.end());
       if (got < 0) error = make_error(Code::io, "the sound cannot be read any more");
       if (!good) error = good.error();
@@ -99,6 +116,21 @@ std::vector<float> SoundPipe::take(std::size_t most) {
 bool SoundPipe::over() {
   const std::lock_guard lock(impl_->mutex);
   return impl_->ended && impl_->samples.empty();
+}
+
+std::size_t SoundPipe::waiting() {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->samples.size();
+}
+
+void SoundPipe::discard() {
+  const std::lock_guard lock(impl_->mutex);
+  impl_->samples.clear();
+  ++impl_->discarded;
+  int sent = 0;
+  impl_->old_bytes =
+      ::ioctl(impl_->descriptor, FIONREAD, &sent) == 0 && sent > 0 ? std::size_t(sent) : 0;
+  impl_->room.notify_all();
 }
 
 std::optional<Error> SoundPipe::take_error() {

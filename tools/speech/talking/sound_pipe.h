@@ -20,6 +20,10 @@ class SoundFeed {
   virtual std::vector<float> take(std::size_t most) = 0;
   /// Nothing more will come.
   virtual bool over() = 0;
+  /// Samples that are there and were not taken.
+  virtual std::size_t waiting() { return 0; }
+  /// Drops what has come so far, also what has been sent and not been read.
+  virtual void discard() {}
   /// An error, returned once.
   virtual std::optional<Error> take_error() { return std::nullopt; }
 };
@@ -36,6 +40,8 @@ class SoundPipe : public SoundFeed {
 
   std::vector<float> take(std::size_t most) override;
   bool over() override;
+  std::size_t waiting() override;
+  void discard() override;
   std::optional<Error> take_error() override;
 
  private:

@@ -16,6 +16,7 @@ namespace {
 constexpr double kFade = 0.25;  // seconds
 // A mouth that is cut off: seconds, at most where there is far to go; share of the speed of speech.
 constexpr double kClosing = 0.1, kLongestClosing = 0.16, kOfSpeed = 0.75;
+constexpr double kLongPhrase = 8;                    // seconds, of speech that is only heard
 constexpr double kIdleSeconds = 20;                  // of one piece
 constexpr double kMoodSpeech = 10, kMoodSound = 25;  // shares of a mood's mouth, at most, a second
 constexpr double kHistory = 1;  // seconds of a line that may still bear on what follows
@@ -311,9 +312,8 @@ void TalkingFace::set_mood(const dam::Mood& mood) {
 
 // What the sounds leave to the mouth of a mood changes no faster than lips do, also where one piece
 // follows another.
-void TalkingFace::follow_sounds(double in_piece) {
+void TalkingFace::follow_sounds(const dam::MoodMouth::Shares& wanted) {
   const double seconds = signal_.rate.seconds(1);
-  const dam::MoodMouth::Shares wanted = mouth_.at(in_piece);
   shares_.speech = nearer(shares_.speech, wanted.speech, kMoodSpeech * seconds);
   shares_.round = nearer(shares_.round, wanted.round, kMoodSound * seconds);
   shares_.teeth = nearer(shares_.teeth, wanted.teeth, kMoodSound * seconds);
@@ -386,6 +386,28 @@ Result<Line> TalkingFace::join(const dam::Script& script, double start, const Li
   return line_from(std::min(at + first, clip_.frames.size() - 1), before);
 }
 
+// Speech whose phrases nobody has told of: it lasts until it ends.
+void TalkingFace::behave_as_speaking(bool speaks) {
+  if (!behaviour_ || (speaks == accompanies_ && (!speaks || now() < phrase_end_))) return;
+  accompanies_ = speaks;
+  if (!speaks) return behaviour_->hush();
+  dam::SpeechPlan plan;
+  plan.phrases.push_back({.start = 0, .end = kLongPhrase, .begins = true});
+  behaviour_->speak(plan);
+  phrase_end_ = now() + kLongPhrase;
+}
+
+fap::Frame TalkingFace::accompany(const fap::Frame& mouth, const dam::MoodMouth::Shares& sounds) {
+  fap::Frame frame = mouth;
+  behave_as_speaking(sounds.speech > 0);
+  behave(frame);
+  follow_sounds(sounds);
+  if (over_) over_->next(shares_, frame);
+  show_mood(frame);
+  frame.number = number_++;
+  return frame;
+}
+
 Result<fap::Frame> TalkingFace::next() {
   if (at_ >= clip_.frames.size()) {
     if (auto ok = begin(silence(), false); !ok) return ok.error();
@@ -394,7 +416,7 @@ Result<fap::Frame> TalkingFace::next() {
   shown_ = row(signal_, at_);
   fap::Frame frame = clip_.frames[at_];
   behave(frame);
-  follow_sounds(signal_.time(at_++));
+  follow_sounds(mouth_.at(signal_.time(at_++)));
   if (over_) over_->next(shares_, frame);
   show_mood(frame);
   frame.number = number_++;

@@ -97,6 +97,10 @@ class TalkingFace {
   bool closing() const { return number_ < closed_; }
   /// The next frame. Errors: as say().
   Result<fap::Frame> next();
+  /// In place of next(), for a mouth that others move: `mouth`, with gaze, blinks, head and moods
+  /// of this face. `sounds`: what the mouth says, of which moods and behaviour take account; speech
+  /// above 0: it speaks.
+  fap::Frame accompany(const fap::Frame& mouth, const dam::MoodMouth::Shares& sounds);
 
  private:
   TalkingFace(const dam::Model& model, const FaceOptions& options)
@@ -109,7 +113,8 @@ class TalkingFace {
   Line line_from(std::size_t first, const fap::Frame& before) const;
   double now() const { return signal_.rate.seconds(double(number_)); }
   void plan_moods(const dam::Script& script, double start, const LineMoods& moods);
-  void follow_sounds(double in_piece);
+  void follow_sounds(const dam::MoodMouth::Shares& wanted);
+  void behave_as_speaking(bool speaks);
   void show_mood(fap::Frame& frame);
 
   const dam::Model* model_;
@@ -130,7 +135,9 @@ class TalkingFace {
   std::optional<dam::Behaviour> behaviour_;  // nothing: no idle motion
   std::vector<int> moving_;                  // FAPs of it
   std::optional<dam::PerformanceLoop> over_;
-  std::int64_t closed_ = 0;  // number of the frame after the first one at rest behind cut()
+  bool accompanies_ = false;  // speech that others show
+  double phrase_end_ = 0;     // of it, in seconds from frame 0
+  std::int64_t closed_ = 0;   // number of the frame after the first one at rest behind cut()
 };
 
 }  // namespace animeme::speech

@@ -209,7 +209,8 @@ EspeakJob job_of(std::string_view request) {
 constexpr unsigned kMostSecondsOfWork = 300;
 constexpr std::int64_t kMostEventsPerSecond = 100;  // words and phones; speech has some 20
 // One takes some 3 MB, starting one as long as a few lines.
-constexpr std::size_t kMostKept = 32;
+constexpr std::size_t kMostKept = 10;
+constexpr int kTries = 3;  // a process may be ended by others, such as for its memory
 
 struct KeptVoice {
   std::string name, data_path;
@@ -261,8 +262,10 @@ void keep_voices() {
   if (nursery) g_nursery = std::move(*nursery);
 }
 
-Result<EspeakResult> run_espeak(const EspeakJob& job) {
-  if (!espeak()) return espeak().error();
+namespace {
+
+// `ended`: the process of the voice has ended before the text, though nothing was wrong with it.
+Result<EspeakResult> try_espeak(const EspeakJob& job, bool& ended) {
   EspeakResult result;
   std::string failure;
   std::size_t total = 0, events = 0;
@@ -302,9 +305,27 @@ Result<EspeakResult> run_espeak(const EspeakJob& job) {
                                               " s of speech; speak it in parts");
   }
   if (!failure.empty()) return make_error(Code::io, failure);
+  ended = !run;
   if (!run) return run.error();
   result.speech.pop_back();  // opened by the last kTextEnd
   return result;
+}
+
+}  // namespace
+
+Result<EspeakResult> run_espeak(const EspeakJob& job) {
+  if (!espeak()) return espeak().error();
+  for (int tries = 1;; ++tries) {
+    bool ended = false;
+    Result<EspeakResult> result = try_espeak(job, ended);
+    if (result || !ended || !g_keep || tries == kTries) return result;
+    if (tries == 1) continue;
+    // The nursery may be gone, and its children with it.
+    g_kept.clear();
+    g_nursery.reset();
+    auto nursery = Nursery::start(prepare_named, answer_request, kMostSecondsOfWork);
+    if (nursery) g_nursery = std::move(*nursery);
+  }
 }
 
 Result<VoiceLists> read_espeak_voices(const std::string& data_path) {

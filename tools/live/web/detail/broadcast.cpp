@@ -54,9 +54,10 @@ media::SendStats Broadcast::stats() const {
   return stats;
 }
 
-void Broadcast::end() {
+void Broadcast::end(bool goes_away) {
   {
     const std::lock_guard lock(mutex_);
+    goes_away_ = over_ ? goes_away_ : goes_away;
     over_ = true;
   }
   touched_(shared_from_this());
@@ -96,6 +97,7 @@ Broadcast::Turn Broadcast::next(ClientId client) {
   Turn turn{hub_.next(client)};
   turn.more = hub_.waiting(client);
   turn.over = over_ && !turn.more;
+  turn.goes_away = goes_away_;
   return turn;
 }
 

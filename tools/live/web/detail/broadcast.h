@@ -42,8 +42,9 @@ class Broadcast : public std::enable_shared_from_this<Broadcast> {
   bool wanted(Channel channel) const;
   /// Receivers are those of a face or those of a sound, whichever are more.
   media::SendStats stats() const;
-  /// Viewers get the queued messages and the end; new viewers are refused.
-  void end();
+  /// Viewers get the queued messages and the end; new viewers are refused. `goes_away`: it is the
+  /// server that ends.
+  void end(bool goes_away = false);
   /// True: all have gone.
   bool wait_until_empty(Hub::Clock::time_point instant);
 
@@ -55,6 +56,7 @@ class Broadcast : public std::enable_shared_from_this<Broadcast> {
   struct Turn {
     MessagePtr message;
     bool more = false, over = false;  ///< behind it
+    bool goes_away = false;           ///< over: the server ends
   };
   Turn next(ClientId client);
   enum class Need : std::uint8_t { nothing, to_write, to_go };
@@ -71,7 +73,7 @@ class Broadcast : public std::enable_shared_from_this<Broadcast> {
   Hub hub_;
   std::array<int, kChannels> clients_{};
   DocumentPtr info_ = std::make_shared<const Document>(Document{"{}", {}, {}});
-  bool over_ = false;
+  bool over_ = false, goes_away_ = false;
 };
 
 }  // namespace animeme::web

@@ -291,12 +291,13 @@ bool Server::send_message(lws* wsi, Session& session, const Message& message) {
 }
 
 int Server::write_message(lws* wsi, Session& session) {
-  const auto [message, more, over] = session.broadcast->next(session.client);
+  const auto [message, more, over, goes_away] = session.broadcast->next(session.client);
   if (message && !send_message(wsi, session, *message)) return -1;
   if (!message && over) {
     std::array<unsigned char, 4> reason{'e', 'n', 'd', 0};
     if (session.resource != Resource::talk) {
-      lws_close_reason(wsi, LWS_CLOSE_STATUS_NORMAL, reason.data(), 3);
+      lws_close_reason(wsi, goes_away ? LWS_CLOSE_STATUS_GOINGAWAY : LWS_CLOSE_STATUS_NORMAL,
+                       reason.data(), 3);
     }
     return -1;
   }

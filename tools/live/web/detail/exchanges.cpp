@@ -61,6 +61,7 @@ int Server::ask_handler(lws* wsi) {
 int Server::write_reply(lws* wsi, Session& session) {
   const ServerReply reply = *std::exchange(session.reply, std::nullopt);
   Answer answer{.status = reply.status, .type = reply.type, .size = reply.body.size()};
+  answer.retry_after = reply.retry_after;
   const bool with_body = session.exchange->with_body && !reply.body.empty();
   if (!send_header(wsi, answer)) return -1;
   limiter_.progress(wsi, ConnectionLimiter::Clock::now());

@@ -197,6 +197,7 @@ bool send_header(lws* wsi, const Answer& answer) {
     header.add("access-control-allow-headers:", "content-type, authorization");
     header.add("accept-post:", "application/sdp");
   }
+  if (answer.retry_after > 0) header.add("retry-after:", std::to_string(answer.retry_after));
   if (!answer.location.empty()) {
     header.add("location:", answer.location);
     header.add("access-control-expose-headers:", "location");

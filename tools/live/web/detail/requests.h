@@ -69,6 +69,7 @@ struct Answer {
   bool has_head = false;  ///< a page that shows a head
   std::string location;   ///< of what was made
   const char* allow = "GET, HEAD";  ///< 405, 204: what there is
+  int retry_after = 0;              ///< 429, 503: seconds; 0: not said
 };
 
 /// False: it could not be sent.

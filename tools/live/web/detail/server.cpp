@@ -149,14 +149,14 @@ void Server::close(const std::string& path) {
   broadcast->end();
 }
 
-void Server::finish() {
+void Server::finish(bool goes_away) {
   std::vector<std::shared_ptr<Broadcast>> broadcasts;
   {
     const std::lock_guard lock(mutex_);
     finishing_ = true;
     for (const auto& [path, broadcast] : broadcasts_) broadcasts.push_back(broadcast);
   }
-  for (const auto& broadcast : broadcasts) broadcast->end();
+  for (const auto& broadcast : broadcasts) broadcast->end(goes_away);
   const auto patience = Hub::Clock::now() + kGoodbye;
   for (const auto& broadcast : broadcasts) broadcast->wait_until_empty(patience);
   stop();

@@ -88,7 +88,8 @@ class Server {
   int viewers() const { return viewers_; }
 
   /// Lets the clients have what waits for them, for two seconds at most, and says goodbye.
-  void finish();
+  /// `goes_away`: with 1001, which viewers take for a reason to come back.
+  void finish(bool goes_away = false);
 
  private:
   Server(const WebAddress& address, const ServerOptions& options, ServerHandler handler);

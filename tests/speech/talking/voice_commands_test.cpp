@@ -1,0 +1,220 @@
+// Commands for a voice that comes as sound alone: what was sent before a stop is not heard, the
+// mouth closes, marks are reached, and the face lives.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "codec/decode/access_unit.h"
+#include "codec/decode/decoder.h"
+#include "dam/model/builtin.h"
+#include "tools/formats/media/audio.h"
+#include "tools/speech/talking/line_queue.h"
+#include "tools/speech/talking/live_voice.h"
+#include "tools/speech/voice/listen_stream.h"
+#include "tools/speech/voice/voice.h"
+
+namespace animeme::speech {
+namespace voice_commands_test {
+
+using media::LiveTrack;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const dam::Model& character() {
+  static const dam::Model model = std::move(*dam::builtin_model());
+  return model;
+}
+
+// Samples that a program has sent by now; those that were not taken wait.
+class Feed : public SoundFeed {
+ public:
+  std::vector<float> take(std::size_t most) override {
+    const auto count = std::ptrdiff_t(std::min(most, there.size()));
+    std::vector<float> some(there.begin(), there.begin() + count);
+    there.erase(there.begin(), there.begin() + count);
+    return some;
+  }
+  bool over() override { return closed && there.empty(); }
+  std::size_t waiting() override { return there.size(); }
+  void discard() override { there.clear(); }
+
+  std::vector<float> there;
+  bool closed = false;
+};
+
+struct Stage {
+  LineQueue queue{4000, true, false};
+  Feed* feed = nullptr;
+  std::unique_ptr<LiveVoice> voice;
+  std::vector<LineEvent> events;
+  fba::AccessUnits planes;
+  media::EncodedAudio packets;
+  double now = 0;
+
+  Stage(int rate, const LiveVoiceOptions& wanted) {
+    auto owned = std::make_unique<Feed>();
+    feed = owned.get();
+    LiveVoiceOptions options = wanted;
+    options.commands = &queue;
+    options.audio = media::AudioSettings{media::AudioCodec::opus, 96000};
+    auto opened = LiveVoice::open(character(), std::move(owned), rate, options);
+    EXPECT_TRUE(opened) << opened.error().describe();
+    voice = std::move(*opened);
+    packets.format = *voice->info().audio;
+  }
+  void run(double until) {
+    for (;;) {
+      const auto due = voice->next_due();
+      if (!due || *due >= until) break;
+      now = *due;
+      auto made = voice->take(now);
+      ASSERT_TRUE(made) << made.error().describe();
+      for (media::LiveUnit& unit : *made) {
+        voice->sent(unit, now);
+        if (unit.track == LiveTrack::face) {
+          planes.units.push_back({std::move(unit.bytes), unit.intra, 0, 1});
+        } else {
+          packets.packets.push_back({std::move(unit.bytes), unit.time, unit.duration});
+        }
+      }
+      for (LineEvent& event : voice->take_events()) events.push_back(std::move(event));
+    }
+  }
+  void push(const std::string& line) { EXPECT_TRUE(queue.push(line, now)); }
+  std::vector<std::string> told() const {
+    std::vector<std::string> all;
+    for (const LineEvent& event : events) all.push_back(to_json(event));
+    return all;
+  }
+  double time_of(LineEvent::What what) const {
+    for (const LineEvent& event : events) {
+      if (event.what == what) return event.time;
+    }
+    return -1;
+  }
+  fap::Sequence face() const {
+    const auto decoded = fba::decode(fba::join_access_units(planes));
+    EXPECT_TRUE(decoded);
+    return decoded ? fba::face_sequence(*decoded) : fap::Sequence{};
+  }
+};
+
+double opening(const fap::Frame& frame) { return -(frame.value[4] + frame.value[5]); }
+
+std::optional<media::Pcm> spoken_words() {
+  if (!voice::SoundListener::open(16000, {})) return std::nullopt;
+  const auto speech =
+      voice::speak_text("How many boats are there, and who paid for all of them?", {});
+  if (!speech) return std::nullopt;
+  return speech->audio;
+}
+
+// Two seconds of old sound wait when the command comes.
+TEST(VoiceCommands, NothingThatWasSentBeforeAStopIsHeard) {
+  const auto words = spoken_words();
+  if (!words) GTEST_SKIP() << "neither a voice nor ears";
+  Stage stage(words->sample_rate, {});
+  stage.feed->there = words->samples;
+  stage.feed->there.insert(stage.feed->there.end(), words->samples.begin(), words->samples.end());
+  stage.push(R"({"do": "mark", "id": "never"})");
+  stage.run(1.5);
+  EXPECT_GT(stage.feed->waiting(), std::size_t(2 * words->sample_rate));
+  stage.push(R"({"do": "stop"})");
+  stage.run(2.5);
+  // What comes later is heard: a tone.
+  for (int i = 0; i < words->sample_rate; ++i) {
+    stage.feed->there.push_back(float(0.4 * std::sin(i * 2 * M_PI * 500 / words->sample_rate)));
+  }
+  stage.push(R"({"do": "mark", "id": "tone"})");
+  stage.feed->closed = true;
+  stage.run(1e9);
+  const auto sound = media::decode_audio(stage.packets);
+  ASSERT_TRUE(sound);
+  const auto loudest = [&](double from, double to) {
+    float peak = 0;
+    for (auto i = std::size_t(from * sound->sample_rate); i < std::size_t(to * sound->sample_rate);
+         ++i) {
+      peak = std::max(peak, std::abs(sound->samples[i]));
+    }
+    return peak;
+  };
+  const double stopped = stage.time_of(LineEvent::What::stopped);
+  EXPECT_NEAR(stopped, 1.5, 0.05);
+  EXPECT_GT(loudest(1, stopped), 0.05F);
+  EXPECT_LT(loudest(stopped + 0.12, 2.5), 0.003F);
+  EXPECT_GT(loudest(2.6, 3.4), 0.3F);
+  const fap::Sequence face = stage.face();
+  double widest = 0;
+  for (std::size_t i = 0; i < face.frames.size(); ++i) {
+    const double time = double(i) / 25;
+    if (time < stopped) widest = std::max(widest, opening(face.frames[i]));
+    if (time > stopped + 0.17 && time < 2.5) {
+      EXPECT_LT(std::abs(opening(face.frames[i])), 60) << time;
+    }
+  }
+  EXPECT_GT(widest, 150);
+  EXPECT_THAT(stage.told(),
+              ElementsAre(HasSubstr("stopped"), HasSubstr("never"), HasSubstr("tone")));
+  EXPECT_GT(stage.time_of(LineEvent::What::mark), 3.4);
+}
+
+TEST(VoiceCommands, MoodsGazeAndBlinksBesidesTheVoice) {
+  const auto words = spoken_words();
+  if (!words) GTEST_SKIP() << "neither a voice nor ears";
+  LiveVoiceOptions options;
+  options.idle_motion = true;
+  Stage stage(words->sample_rate, options);
+  stage.feed->there = words->samples;
+  stage.feed->closed = true;
+  stage.run(1);
+  stage.push(R"({"do": "mood", "mood": "joy"})");
+  stage.push(R"({"do": "look", "target": "20,0"})");
+  stage.push("A text that nobody can say.");
+  const auto job = stage.queue.try_job();
+  ASSERT_TRUE(job);
+  stage.queue.made(job->line, make_error(Code::unsupported, "no voice"), 1);
+  stage.run(1e9);
+  const fap::Sequence face = stage.face();
+  ASSERT_GT(face.frames.size(), 60u);
+  // Corners of the lips (12) and the eyes (23).
+  EXPECT_GT(face.frames.back().value[12], face.frames[20].value[12] + 20);
+  int turned = 0;
+  for (std::size_t i = 40; i < 60; ++i)
+    turned = std::max(turned, std::abs(face.frames[i].value[23]));
+  EXPECT_GT(turned, 5000);
+  EXPECT_THAT(stage.told(), ElementsAre(HasSubstr("queued"), HasSubstr("cancelled")));
+}
+
+// What stands in a pipe, and what a program writes after the command.
+TEST(VoiceCommands, APipeIsEmptied) {
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  SoundPipe pipe(ends[0], BareSound{16000, 1});
+  const auto write = [&](std::int16_t value, std::size_t count) {
+    const std::vector<std::int16_t> samples(count, value);
+    ASSERT_EQ(::write(ends[1], samples.data(), 2 * count), ssize_t(2 * count));
+  };
+  write(1000, 30000);
+  for (int i = 0; i < 1000 && pipe.waiting() < 8000; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  EXPECT_GE(pipe.waiting(), 8000u);
+  pipe.discard();
+  write(2000, 500);
+  ::close(ends[1]);
+  std::vector<float> all;
+  for (int i = 0; i < 1000 && !pipe.over(); ++i) {
+    for (const float sample : pipe.take(100000)) all.push_back(sample);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  EXPECT_EQ(all, std::vector<float>(500, 2000.0F / 32768));
+  ::close(ends[0]);
+}
+
+}  // namespace voice_commands_test
+}  // namespace animeme::speech
