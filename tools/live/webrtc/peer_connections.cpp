@@ -12,6 +12,7 @@
 
 #include "tools/live/webrtc/detail/feed.h"
 #include "tools/live/webrtc/detail/load.h"
+#include "tools/live/webrtc/detail/shared_transport.h"
 #include "tools/live/webrtc/webrtc.h"
 
 namespace animeme::webrtc {
@@ -119,7 +120,7 @@ void PeerHub::offer(std::string sdp, std::string address, Answer answer) {
     answer({503, "", "All places are taken (--max-clients).\n"});
     return;
   }
-  offers_.push_back({std::move(sdp), std::move(address), make_id(), std::move(answer)});
+  offers_.push_back({share_transport(sdp), std::move(address), make_id(), std::move(answer)});
   changed_.notify_all();
 }
 
