@@ -100,6 +100,14 @@ TEST(Piece, FloatsThatAreNoSamplesAreTamed) {
   EXPECT_EQ(line.speech.audio.samples, (std::vector<float>{0.5F, 0, -1, 1}));
 }
 
+TEST(Piece, TheRateHasSeveralNames) {
+  for (const char* name : {"sample_rate", "sampleRate", "sampleRateHertz", "rate"}) {
+    const SpokenLine line =
+        good({{"audio", encoded(samples(1000))}, {name, 24000}, {"script", "0 0.04 AA"}});
+    EXPECT_EQ(line.speech.audio.sample_rate, 24000) << name;
+  }
+}
+
 TEST(Piece, TimesOfServicesStandInThePieceItself) {
   const std::string audio = encoded(samples(16000));
   // ElevenLabs.
@@ -258,6 +266,7 @@ TEST(Piece, SaysWhatIsWrong) {
   EXPECT_THAT(said("[1, 2]"), HasSubstr("a JSON object"));
   EXPECT_THAT(said("{\"audio\": 5, \"script\": \"0 1 AA\"}"), HasSubstr("\"audio\" has to be"));
   EXPECT_THAT(said("{\"audio\": \"@@\", \"script\": \"0 1 AA\"}"), HasSubstr("no base64"));
+  EXPECT_THAT(said("{\"audio\": \"AAAAAAAAAAAAAAAA\"}"), HasSubstr("need \"sample_rate\""));
   EXPECT_THAT(said(Json({{"audio", audio}, {"sample_rate", 10}, {"script", kScript}}).dump()),
               HasSubstr("from 1000 to 384000"));
   EXPECT_THAT(said(Json({{"audio", audio}, {"encoding", "pcm"}, {"script", kScript}}).dump()),

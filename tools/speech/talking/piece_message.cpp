@@ -124,7 +124,8 @@ Result<void> take_sound(Json& piece, const std::string& type, PieceMessage& mess
   Result<std::string> coding =
       take_text(piece, {"encoding", "format", "audioformat", "outputformat", "audioencoding"});
   if (!coding) return coding.error();
-  const Result<double> rate = take_number(piece, {"samplerate", "sampleratehertz"});
+  const Result<double> rate =
+      take_number(piece, {"samplerate", "sampleratehertz", "rate", "samplingrate"});
   if (!rate) return rate.error();
   const Result<double> channels = take_number(piece, {"channels", "channelcount"});
   if (!channels) return channels.error();

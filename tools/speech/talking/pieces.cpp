@@ -210,7 +210,14 @@ Result<media::Pcm> PieceStream::Impl::decode(PieceMessage& message, Utterance& u
   const double rate = sample_rate > 0 ? sample_rate : named.sample_rate;
   const bool unsaid = coding.empty() && rate == 0;
   const bool unknown = !coding.empty() && !named.coding;
-  if (is_file(message.bytes) || unsaid || unknown) return media::read_audio(message.bytes, limit);
+  if (is_file(message.bytes) || unsaid || unknown) {
+    Result<media::Pcm> pcm = media::read_audio(message.bytes, limit);
+    if (!pcm && unsaid) {
+      return make_error(pcm.error().code,
+                        pcm.error().message + "; samples without a header need \"sample_rate\"");
+    }
+    return pcm;
+  }
   if (rate == 0) {
     return make_error(Code::invalid_argument,
                       "samples need \"sample_rate\", from 1000 to 384000 a second");
