@@ -56,7 +56,11 @@ for (const name of ['talk', 'measured', 'fast']) {
   test(`${name}: TalkingHead is told what the program tells it`, () => {
     run('export', `${name}.fba`, '-o', `${name}.talkinghead.json`);
     assert.deepEqual(animeme.talkingHead(frames, null), JSON.parse(text(`${name}.talkinghead.json`)));
-    const {anim} = animeme.talkingHead(frames, null, {shapes: true});
+    const words = [{text: 'hello', start: 0, end: 0.4}];
+    const {anim, anims, visemes, vtimes} = animeme.talkingHead(frames, null, {shapes: true, words});
+    // Its player makes visemes from words unless there are some, if only none.
+    assert.deepEqual([visemes, vtimes], [[], []]);
+    assert.deepEqual(anims, [{...anim, delay: 0}]);
     assert.equal(anim.dt.length, frames.length);
     assert.equal(anim.vs.jawOpen.length, frames.length + 1);
     const fitter = new animeme.ArkitFitter(), jaw = animeme.arkitNames().indexOf('jawOpen');

@@ -148,12 +148,12 @@ inline std::string tones_and_mouths(const std::string& connect, int milliseconds
     await context.resume();
     const wave = new Float32Array(512), tones = [], mouths = [];
     let loud = false, open = false, begin = performance.now();
-    animeme.onFrame = (values) => {
+    animeme.addEventListener('frame', ({detail: {values}}) => {
       if ((values[3] > 300) !== open) {
         open = !open;
         if (open) mouths.push(performance.now() / 1000);
       }
-    };
+    });
     const timer = setInterval(() => {
       tap.getFloatTimeDomainData(wave);
       const level = Math.sqrt(wave.reduce((sum, x) => sum + x * x, 0) / wave.length);

@@ -217,12 +217,13 @@ export class Track {
 /** The face of an mp4 in memory, as a receiver shows it. */
 export function decodeMp4(bytes: Uint8Array | ArrayBuffer, options?: DecoderOptions): Track;
 
-/** The argument of TalkingHead's speakAudio(); times in milliseconds. */
+/** The argument of TalkingHead's speakAudio() and streamAudio(); times in milliseconds. */
 export interface TalkingHeadAudio<Audio> {
   audio: Audio;
   words: string[]; wtimes: number[]; wdurations: number[];
   visemes?: string[]; vtimes?: number[]; vdurations?: number[];
   anim?: {name: string; dt: number[]; vs: Record<string, number[]>};
+  anims?: {name: string; dt: number[]; vs: Record<string, number[]>; delay: number}[];
 }
 
 /** Frames (shown) for TalkingHead: visemes with times, or with {shapes: true} ARKit's shapes frame by frame. */

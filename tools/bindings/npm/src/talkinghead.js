@@ -39,8 +39,9 @@ function blendshapes(frames) {
 
 /**
  * Frames of a face (shown) beside `audio`, an AudioBuffer or pieces of PCM: {audio, words, wtimes, wdurations, visemes,
- * vtimes, vdurations}, times in milliseconds; with {shapes: true} also `anim`, ARKit's shapes frame by frame, in place
- * of visemes. Its player closes the mouth by itself, so silence is left out.
+ * vtimes, vdurations}, times in milliseconds; with {shapes: true} ARKit's shapes frame by frame: `anim` for
+ * speakAudio(), `anims` for streamAudio() (of a stream with {lipsyncType: 'blendshapes'}). Visemes are empty then, or
+ * its player would make others from the words. It closes the mouth by itself, so silence is left out.
  */
 export function talkingHead(frames, audio, {shapes = false, words = []} = {}) {
   const out = {
@@ -49,7 +50,11 @@ export function talkingHead(frames, audio, {shapes = false, words = []} = {}) {
     wtimes: words.map(({start}) => milliseconds(start)),
     wdurations: words.map(({start, end}) => milliseconds(end) - milliseconds(start)),
   };
-  if (shapes) return {...out, anim: blendshapes(frames)};
+  if (shapes) {
+    const anim = blendshapes(frames);
+    // streamAudio() adds the begin of the sound to the delay of what it is given.
+    return {...out, visemes: [], vtimes: [], vdurations: [], anim, anims: [{...anim, delay: 0}]};
+  }
   const events = visemeEvents(frames).filter(({viseme}) => viseme !== 'viseme_sil');
   return {
     ...out,

@@ -1,7 +1,9 @@
 // The page itself. Other scripts may take part by window.animeme:
-//   onFrame(values, time)  is called for each plane when it is due; values by FAP number
-//   onTick(now)            is called for each displayed picture, in audio time
-//   onMessage(message)     what the server tells in words
+//   addEventListener(type, listener), removeEventListener(): any number of listeners for
+//     'frame'    each plane when it is due; event.detail: {values, time}, values by FAP number
+//     'tick'     each displayed picture; event.detail: {now}, in audio time
+//     'message'  what the server tells in words: event.detail
+//   onFrame(values, time), onTick(now), onMessage(message): the same for one function each
 //   viewport               the element of the face; setView(element) replaces what it shows
 //   session                frames, clock(), latency(), buffered(), gaps
 //   asked, flag(name)      parameters of the address; README.md of tools/live/web has them
@@ -25,7 +27,16 @@
   // Nothing until it is there, which runs behind this script.
   element('face').hidden = Boolean(document.querySelector('script[src="head.js"]'));
 
+  const listeners = new EventTarget();
+  const tell = (type, detail) => {
+    if (type === 'frame') animeme.onFrame?.(detail.values, detail.time);
+    if (type === 'tick') animeme.onTick?.(detail.now);
+    if (type === 'message') animeme.onMessage?.(detail);
+    listeners.dispatchEvent(new CustomEvent(type, {detail}));
+  };
   const animeme = window.animeme = {
+    addEventListener: listeners.addEventListener.bind(listeners),
+    removeEventListener: listeners.removeEventListener.bind(listeners),
     onFrame: undefined, onTick: undefined, onMessage: undefined,
     viewport: element('viewport'),
     setView(view) { animeme.viewport.replaceChildren(view); },
@@ -64,7 +75,7 @@
     state: show,
     hello(faps) { names = faps; },
     frame(frame) { counted.push(frame); },
-    told(message) { animeme.onMessage?.(message); },
+    told(message) { tell('message', message); },
     blocked() {
       animeme.blocked = true;
       showSound();
@@ -135,9 +146,9 @@
       ++animeme.shown;
       element('mouth').firstElementChild.style.width =
           `${100 * Math.min(1, Face.opening(values))}%`;
-      if (animeme.onFrame) animeme.onFrame(values, frame.time);
+      tell('frame', {values, time: frame.time});
     }
-    if (animeme.onTick) animeme.onTick(now);
+    tell('tick', {now});
     if (element('face')) Face.draw(element('face'), values);
     if (performance.now() - measured > 100) {
       measured = performance.now();

@@ -67,10 +67,10 @@ try {
     last = values;
     view.show(values);
   };
-  animeme.onTick = (now) => {
+  animeme.addEventListener('tick', ({detail: {now}}) => {
     const values = motion.at(animeme.session.frames, now);
     if (values && differ(values, last)) show(values);
-  };
+  });
   show({});
   new ResizeObserver(() => view.draw()).observe(canvas);
 
