@@ -334,9 +334,15 @@ class Heads(unittest.TestCase):
                 values[name] = float(value)
         self.assertEqual(values["animeme_heads"], 1)
         self.assertGreater(values["animeme_planes_total"], 20)
-        bars = [values[name] for name in values if "_bucket" in name]
+        bars = [values[name] for name in values if "late_seconds_bucket" in name]
         self.assertEqual(bars, sorted(bars))
         self.assertEqual(bars[-1], values["animeme_late_seconds_count"])
+        self.assertTrue(until(lambda: "animeme_lines_total{end=\"done\"} 0" not in self.server.ask("/metrics")[1]))
+        text = self.server.ask("/metrics")[1]
+        self.assertIn("animeme_build_info{version=", text)
+        self.assertRegex(text, r'http_requests_total\{status="201"\} [1-9]')
+        self.assertRegex(text, r"text_to_face_seconds_count [1-9]")
+        self.assertRegex(text, r"text_to_sound_seconds_count [1-9]")
 
 
 class Ends(unittest.TestCase):
@@ -392,6 +398,46 @@ class Ends(unittest.TestCase):
         told.wait(None)
         self.assertEqual((told.count("cancelled"), told.count("done")), (2, 0))
         self.assertEqual(server.end(None)[0], 0)
+
+    def test_who_cannot_keep_up_takes_no_more_heads(self):
+        server = Server(PROGRAM)
+        server.ask("/heads/anna", "PUT")
+        face = Socket(server.port, "/heads/anna/face")
+        face.next()
+        planes_of(face, 50)
+        os.kill(server.process.pid, signal.SIGSTOP)
+        time.sleep(2)
+        os.kill(server.process.pid, signal.SIGCONT)
+        threading.Thread(target=lambda: planes_of(face, 1000), daemon=True).start()
+        self.assertTrue(until(lambda: server.json("/health")[1]["status"] == "degraded"))
+        status, _, headers = ask_with_headers(server.url + "/heads/ben", "PUT", "")
+        self.assertEqual((status, headers["Retry-After"]), (503, "10"))
+        self.assertEqual(server.ask("/heads/anna/say", "POST", "Go on.")[0], 202)
+        self.assertEqual(server.end()[0], 0)
+
+    def test_it_writes_what_happens(self):
+        for how in ("json", "text"):
+            with tempfile.TemporaryFile("w+") as log:
+                process = subprocess.Popen([PROGRAM, "serve", "--listen", "http://127.0.0.1:0", "--json", "--quiet",
+                                            "--log", how], stdout=subprocess.PIPE, stderr=log, text=True)
+                url = json.loads(process.stdout.readline())["address"].rstrip("/")
+                ask(url + "/heads/anna", "PUT", "")
+                ask(url + "/heads/anna/say", "POST", '{"text": "A secret.", "id": "one"}')
+                ask(url + "/heads/nobody", "DELETE")
+                process.send_signal(signal.SIGTERM)
+                process.communicate(timeout=60)
+                log.seek(0)
+                text = log.read()
+            self.assertNotIn("secret", text)
+            if how == "text":
+                self.assertRegex(text, r"Z request PUT /heads/anna status=201 ms=")
+                self.assertRegex(text, r"Z line anna line=1 one done")
+                continue
+            entries = [json.loads(line) for line in text.splitlines()]
+            self.assertIn(("head", "anna", "made"), [(e["kind"], e.get("head"), e.get("what")) for e in entries])
+            self.assertEqual([e["status"] for e in entries if e["kind"] == "request"], [201, 202, 404])
+            self.assertEqual([e["what"] for e in entries if e["kind"] == "line"], ["queued", "started", "done"])
+            self.assertTrue(all(e["time"].endswith("Z") for e in entries))
 
     def test_a_voice_that_dies_loses_no_line(self):
         server = Server(PROGRAM)

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <string>
 #include <thread>
 #include <vector>
@@ -33,6 +34,7 @@ struct ServeOptions {
   serve::ServerOptions server;      // all others
   bool stats = false;               // --stats
   double drain = 30;                // --drain
+  std::string log;                  // --log
   bool json = false;                // --json
 };
 
@@ -104,6 +106,10 @@ void add_options(OptionTable& cli, ServeOptions& options) {
       ->show_default();
   add_server_web_options(cli, server.web);
   add_heads_options(cli, options.faces.heads, options.faces.rest);
+  cli.add("--log", options.log,
+          "Write requests, heads and lines to standard error, without texts: text, or a JSON "
+          "object per line")
+      ->one_of("text json");
   cli.add("--stats", options.stats, "Print statistics once per second");
   cli.add("--json", options.json, "Print the address as JSON at the start, statistics at the end");
   cli.show_in_help_all(
@@ -154,6 +160,30 @@ void show_figures(StatusLine& status, const serve::HeadServer& server) {
              figures["late_99_ms"].get<double>(), figures["memory_mb"].get<double>()));
 }
 
+// An entry of the log with the time of day.
+void write_log(const Json& entry, bool as_json) {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(now).count();
+  const std::time_t seconds = std::time_t(ms / 1000);
+  std::tm utc{};
+  ::gmtime_r(&seconds, &utc);
+  const std::string time =
+      format("%04d-%02d-%02dT%02d:%02d:%02d.%03dZ", utc.tm_year + 1900, utc.tm_mon + 1, utc.tm_mday,
+             utc.tm_hour, utc.tm_min, utc.tm_sec, int(ms % 1000));
+  std::string line;
+  if (as_json) {
+    Json all{{"time", time}};
+    all.update(entry);
+    line = all.dump();
+  } else {
+    line = time;
+    for (const auto& [key, value] : entry.items()) {
+      line += " " + (value.is_string() ? value.text() : key + "=" + value.dump());
+    }
+  }
+  std::fprintf(stderr, "%s\n", line.c_str());
+}
+
 // No new lines; those that were accepted are spoken.
 void wait_for_silence(serve::HeadServer& server, double seconds) {
   server.drain();
@@ -199,6 +229,9 @@ Result<int> run(ServeOptions& options) {
     if (auto given = give_heads(options.faces, wanted.web); !given) return given.error();
   }
   wanted.web = live::with_head(wanted.web);
+  if (!options.log.empty()) {
+    wanted.log = [json = options.log == "json"](const Json& entry) { write_log(entry, json); };
+  }
   const Interrupt interrupt;
   auto server = serve::HeadServer::open(wanted, heads);
   if (!server && server.error().code == Code::invalid_argument) {

@@ -33,22 +33,6 @@ double cpu_seconds() {
   return seconds(used.ru_utime) + seconds(used.ru_stime);
 }
 
-std::string histogram(const media::LatenessMeter& late) {
-  constexpr double kBorders[] = {0.001, 0.002, 0.003, 0.005, 0.007, 0.01, 0.015,
-                                 0.02,  0.03,  0.05,  0.1,   0.2,   0.5,  1};
-  std::string text =
-      "# HELP animeme_late_seconds How late planes were sent.\n"
-      "# TYPE animeme_late_seconds histogram\n";
-  for (const double border : kBorders) {
-    text += tools::format("animeme_late_seconds_bucket{le=\"%g\"} %lld\n", border,
-                          static_cast<long long>(late.count_below(border)));
-  }
-  const auto count = static_cast<long long>(late.count());
-  text += tools::format("animeme_late_seconds_bucket{le=\"+Inf\"} %lld\n", count);
-  return text + tools::format("animeme_late_seconds_sum %.6f\nanimeme_late_seconds_count %lld\n",
-                              late.sum(), count);
-}
-
 /// Sums over all heads.
 struct Sums {
   std::size_t heads = 0, awake = 0;
@@ -63,6 +47,22 @@ struct Sums {
 };
 
 }  // namespace
+
+std::string histogram(const std::string& name, const std::string& help,
+                      const media::LatenessMeter& meter) {
+  constexpr double kBorders[] = {0.001, 0.002, 0.003, 0.005, 0.007, 0.01, 0.015,
+                                 0.02,  0.03,  0.05,  0.1,   0.2,   0.5,  1};
+  const std::string full = "animeme_" + name;
+  std::string text = "# HELP " + full + " " + help + "\n# TYPE " + full + " histogram\n";
+  for (const double border : kBorders) {
+    text += tools::format("%s_bucket{le=\"%g\"} %lld\n", full.c_str(), border,
+                          static_cast<long long>(meter.count_below(border)));
+  }
+  const auto count = static_cast<long long>(meter.count());
+  text += tools::format("%s_bucket{le=\"+Inf\"} %lld\n", full.c_str(), count);
+  return text + tools::format("%s_sum %.6f\n%s_count %lld\n", full.c_str(), meter.sum(),
+                              full.c_str(), count);
+}
 
 Json head_json(const HeadFigures& figures) {
   Json json{{"planes", figures.planes},
@@ -129,7 +129,8 @@ std::string HeadServer::metrics() const {
       double(sums.dropped));
   add("cpu_seconds_total", "counter", "Time of processors, without voices.", cpu_seconds());
   add("resident_bytes", "gauge", "Memory of the process.", resident());
-  text += histogram(late);
+  text += histogram("late_seconds", "How late planes were sent.", late);
+  text += journal_.metrics();
   return text;
 }
 

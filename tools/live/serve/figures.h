@@ -10,4 +10,8 @@ namespace animeme::serve {
 /// Of one head.
 tools::Json head_json(const HeadFigures& figures);
 
+/// A histogram named animeme_NAME in the text format of Prometheus.
+std::string histogram(const std::string& name, const std::string& help,
+                      const media::LatenessMeter& meter);
+
 }  // namespace animeme::serve

@@ -31,7 +31,7 @@ Result<std::shared_ptr<Head>> Head::open(const std::string& name, const HeadSett
                                          const HeadRoom& room) {
   Result<speech::LineMaker> maker = room.voices.maker(settings.voice);
   if (!maker) return maker.error();
-  std::shared_ptr<Head> head(new Head(settings, std::move(model), room.clock));
+  std::shared_ptr<Head> head(new Head(name, settings, std::move(model), room));
   // Not the head itself: who calls may be the last to know it, in a thread that it waits for.
   const auto wake = [&loop = room.loop, beat = static_cast<const Beat*>(head.get())] {
     loop.wake(beat);
@@ -62,9 +62,7 @@ void Head::hush(const std::string& why) {
   const std::lock_guard lock(mutex_);
   if (!speaker_ || !sink_) return;
   speaker_->end(why);
-  for (const speech::LineEvent& event : speaker_->take_events()) {
-    if (!sink_->tell(speech::to_json(event))) return;
-  }
+  (void)tell_events();
 }
 
 void Head::finish() {
@@ -79,6 +77,29 @@ bool Head::wanted() const {
   return sink_->stats().receivers > 0 || !lines_->idle() || !speaker_->silent();
 }
 
+Result<void> Head::tell_events() {
+  bool ended = false;
+  for (const speech::LineEvent& event : speaker_->take_events()) {
+    journal_.line(name_, event);
+    ended |= event.what == speech::LineEvent::What::done;
+    if (auto ok = sink_->tell(speech::to_json(event)); !ok) return ok;
+  }
+  if (ended) note_latencies();
+  return {};
+}
+
+// Of lines that were shown and heard since the last time.
+void Head::note_latencies() {
+  double last = noted_;
+  for (auto trace = speaker_->traces().rbegin(); trace != speaker_->traces().rend(); ++trace) {
+    if (trace->begun <= noted_) break;
+    if (trace->face_sent <= 0) continue;
+    journal_.latency(*trace);
+    last = std::max(last, trace->begun);
+  }
+  noted_ = last;
+}
+
 Result<void> Head::send_due() {
   const std::optional<double> due = speaker_->next_due();
   if (!due || pacer_.now() < *due) return {};
@@ -87,9 +108,7 @@ Result<void> Head::send_due() {
   for (const media::LiveUnit& unit : *units) {
     if (auto ok = sink_->send(unit); !ok) return ok;
     speaker_->sent(unit, clock_.now());
-    for (const speech::LineEvent& event : speaker_->take_events()) {
-      if (auto ok = sink_->tell(speech::to_json(event)); !ok) return ok;
-    }
+    if (auto ok = tell_events(); !ok) return ok;
     if (unit.track == media::LiveTrack::face) {
       late_.add(pacer_.now() - media::due_of(*speaker_, unit));
     }

@@ -17,6 +17,7 @@
 #include "tools/formats/media/live/pacer.h"
 #include "tools/live/serve/clock_loop.h"
 #include "tools/live/serve/head_lines.h"
+#include "tools/live/serve/journal.h"
 #include "tools/live/serve/settings.h"
 #include "tools/live/web/web_server.h"
 #include "tools/speech/talking/live_speaker.h"
@@ -29,6 +30,7 @@ struct HeadRoom {
   web::WebServer& server;      ///< serves it
   ClockLoop& loop;             ///< runs its steps
   media::Clock& clock;         ///< that of the loop
+  Journal& journal;            ///< is told of its lines
   double most_seconds = 1800;  ///< of speech that may wait, see HeadLines
 };
 
@@ -75,14 +77,24 @@ class Head : public Beat {
   void add_lateness(media::LatenessMeter& meter) const;
 
  private:
-  Head(const HeadSettings& settings, std::shared_ptr<const dam::Model> model, media::Clock& clock)
-      : settings_(settings), model_(std::move(model)), clock_(clock), pacer_(clock) {}
+  Head(const std::string& name, const HeadSettings& settings,
+       std::shared_ptr<const dam::Model> model, const HeadRoom& room)
+      : name_(name),
+        settings_(settings),
+        model_(std::move(model)),
+        clock_(room.clock),
+        journal_(room.journal),
+        pacer_(room.clock) {}
   bool wanted() const;
   Result<void> send_due();
+  Result<void> tell_events();
+  void note_latencies();
 
+  const std::string name_;
   const HeadSettings settings_;
   const std::shared_ptr<const dam::Model> model_;
   media::Clock& clock_;
+  Journal& journal_;
   std::shared_ptr<HeadLines> lines_;
 
   mutable std::mutex mutex_;  // for what follows
@@ -93,6 +105,7 @@ class Head : public Beat {
   double resume_ = 0;  // presentation time at which it sleeps
   double wanted_ = 0;  // instant at which it was last
   media::LatenessMeter late_;
+  double noted_ = 0;  // instant at which the last line began whose latency was noted
   std::string failure_;
 };
 

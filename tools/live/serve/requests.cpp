@@ -101,7 +101,10 @@ bool HeadServer::allowed(const web::ServerRequest& request) const {
 
 ServerReply HeadServer::health() const {
   const std::lock_guard lock(mutex_);
-  return reply(200, {{"status", draining_ ? "ending" : "ok"}, {"heads", heads_.size()}});
+  return reply(200, {{"status", draining_ ? "ending"
+                                : late_   ? "degraded"
+                                          : "ok"},
+                     {"heads", heads_.size()}});
 }
 
 ServerReply HeadServer::ready() const {
@@ -154,6 +157,10 @@ ServerReply HeadServer::put(const std::string& name, const std::string& body) {
   if (!settings) return refusal(settings.error());
   const bool known = find(name) != nullptr;
   if (!known && draining()) return later(503, "The server is about to end.", 1);
+  {
+    const std::lock_guard lock(mutex_);
+    if (!known && late_) return later(503, "Planes are late already; more heads do not fit.", 10);
+  }
   const auto made = make(name, *settings);
   if (!made && !known && made.error().code == Code::out_of_range) {
     return later(429, made.error().describe(), 60);

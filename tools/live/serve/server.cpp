@@ -10,6 +10,10 @@ namespace {
 
 constexpr std::size_t kMostAsked = 256;  // requests that wait
 constexpr int kMostHeads = 10000;
+// A server that cannot keep up: a share of its planes comes so much later than it is due.
+constexpr double kLate = 0.1, kLateShare = 0.01;  // seconds
+constexpr std::size_t kLateSeconds = 11;          // ten seconds
+constexpr std::int64_t kFewPlanes = 25;
 
 Error bad(const std::string& sentence) { return make_error(Code::invalid_argument, sentence); }
 
@@ -125,6 +129,7 @@ Result<std::shared_ptr<Head>> HeadServer::make(const std::string& name,
     most_ = std::max(most_, heads_.size());
   }
   loop_->add(*head);
+  journal_.head(name, "made");
   return head;
 }
 
@@ -155,6 +160,7 @@ bool HeadServer::remove(const std::string& name) {
     heads_.erase(found);
   }
   end(head);
+  journal_.head(name, "ended");
   return true;
 }
 
@@ -165,7 +171,21 @@ std::vector<std::pair<std::string, std::shared_ptr<Head>>> HeadServer::all() con
   return heads;
 }
 
+// Over ten seconds. New heads would make it worse.
+void HeadServer::look_at_lateness() {
+  media::LatenessMeter late;
+  for (const auto& [name, head] : all()) head->add_lateness(late);
+  const std::lock_guard lock(mutex_);
+  late.add(gone_late_);
+  seconds_.push_back({late.count(), late.count() - late.count_below(kLate)});
+  if (seconds_.size() > kLateSeconds) seconds_.pop_front();
+  const std::int64_t planes = seconds_.back().all - seconds_.front().all;
+  const std::int64_t behind = seconds_.back().late - seconds_.front().late;
+  late_ = planes >= kFewPlanes && double(behind) > kLateShare * double(planes);
+}
+
 void HeadServer::look() {
+  look_at_lateness();
   if (options_.expire <= 0) return;
   std::vector<std::string> old;
   {
@@ -221,6 +241,11 @@ bool HeadServer::makes_a_head(const web::ServerRequest& request) const {
 
 // In the thread of the server.
 void HeadServer::ask(web::ServerRequest request, web::ServerAnswer answer) {
+  answer = [this, method = request.method, path = request.path, answer = std::move(answer),
+            begun = media::steady_clock().now()](web::ServerReply reply) {
+    journal_.request(method, path, reply.status, media::steady_clock().now() - begun);
+    answer(std::move(reply));
+  };
   if (request.method == "GET" && request.path == "/health") return answer(health());
   if (request.method == "GET" && request.path == "/ready") return answer(ready());
   {

@@ -42,6 +42,7 @@ struct ServerOptions {
   std::map<std::string, std::string> models;      ///< files of models, by name
   int threads = 0;  ///< for generating planes and packets; 0: one per core
   MakerOf voices;   ///< empty: speech::voice_lines()
+  Log log;          ///< receives requests, heads and lines; empty: nobody
 };
 
 /// Thread safe.
@@ -67,7 +68,9 @@ class HeadServer {
   /// is still spoken.
   void drain();
   bool silent() const;  ///< nothing is said, and nothing waits to be said
-  void look();          ///< deletes heads that have slept too long; call once a second
+                        /// Deletes heads that have slept too long, and looks whether planes are
+                        /// late; call once a second.
+  void look();
   /// Cancels what is left to say, with events, tells all viewers to come back (1001), and stops
   /// serving; takes at most two seconds.
   void finish();
@@ -98,6 +101,7 @@ class HeadServer {
   web::ServerReply health() const;
   web::ServerReply ready() const;
   bool draining() const;
+  void look_at_lateness();
   web::ServerReply answer(const web::ServerRequest& request);
   web::ServerReply answer_head(const web::ServerRequest& request, const std::string& name);
   web::ServerReply put(const std::string& name, const std::string& body);
@@ -105,12 +109,13 @@ class HeadServer {
   bool allowed(const web::ServerRequest& request) const;
   Result<std::shared_ptr<const dam::Model>> model(const std::string& name);
   HeadRoom room() {
-    return {*voices_, *server_, *loop_, media::steady_clock(), options_.most_seconds};
+    return {*voices_, *server_, *loop_, media::steady_clock(), journal_, options_.most_seconds};
   }
   void end(const std::shared_ptr<Head>& head);
   std::vector<std::pair<std::string, std::shared_ptr<Head>>> all() const;
 
   const ServerOptions options_;
+  Journal journal_{options_.log};
   const double begun_ = media::steady_clock().now();
   std::map<std::string, std::shared_ptr<const dam::Model>> models_;  // with making_
   std::unique_ptr<Voices> voices_;
@@ -124,6 +129,11 @@ class HeadServer {
   media::LatenessMeter gone_late_;  // of heads that have gone
   std::int64_t gone_planes_ = 0;
   bool stopping_ = false, draining_ = false;
+  bool late_ = false;  // one plane of a hundred comes more than 0.1 s late
+  struct Planes {
+    std::int64_t all = 0, late = 0;
+  };
+  std::deque<Planes> seconds_;  // so far, at the end of each of the last seconds
   Desk others_, makers_;
 };
 
