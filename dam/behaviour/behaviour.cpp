@@ -18,12 +18,18 @@ constexpr double kFadeIn = 0.6, kFadeOut = 0.9;  // seconds, of head and brows
 constexpr double kOneUtterance = 0.8;            // seconds of pause inside speech
 constexpr double kSamePhrase = 0.2, kPauseToRest = 0.35;
 constexpr double kBeforeSpeech = 0.15;
+// Seconds for which a face listens after the other one has ended, and of speech that is worth a
+// nod.
+constexpr double kListensOn = 1.0, kWorthANod = 0.8;
 // Lids meet at 1024 IRISD units together; a blink shares them as ARKit's eyeBlink does.
 constexpr double kUpperLid = 995, kLowerLid = 29;
 // Lids follow the eye, units a radian: as far as ARKit's eyeLook shapes take them along
 // (fap/semantics.md, section 10), so that faces with these shapes need no others.
 constexpr double kUpperDown = 1092, kUpperUp = 765, kLowerDown = 322, kLowerUp = 381;
 constexpr double kMostUpper = 560, kLeastUpper = -330;
+// IRISD and ENS units (0.1 mm) of what follows gaze and breath: finer motion is not seen, and codes
+// in every frame.
+constexpr double kLidStep = 8, kNostrilStep = 3;
 constexpr double kNostril = 14;                        // ENS units when breathing in
 constexpr double kLidOfBrow = 0.2, kLidOfCheek = 1.2;  // IRISD units for one of ENS
 
@@ -31,6 +37,8 @@ constexpr double kLidOfBrow = 0.2, kLidOfCheek = 1.2;  // IRISD units for one of
 double closing(const FaceMoment& m, std::size_t side) {
   return m.blink * (1 - (m.upper_lid[side] + m.lower_lid[side]) / (kUpperLid + kLowerLid));
 }
+
+double in_steps(double value, double step) { return step * std::round(value / step); }
 
 struct NamedPart {
   std::string_view name;
@@ -152,6 +160,8 @@ struct Behaviour::Impl {
       if (activity == Activity::thinking) activity = Activity::idle;
       return behaviour::Mode::speaking;
     }
+    if (other_speaks || (activity == Activity::idle && time < other_end + kListensOn))
+      return behaviour::Mode::listening;
     switch (activity) {
       case Activity::listening:
         return behaviour::Mode::listening;
@@ -164,6 +174,7 @@ struct Behaviour::Impl {
   }
 
   void speak(const SpeechPlan& plan, double start);
+  void hear(bool voice);
   void expect(const std::vector<SpeechPhrase>& phrases, double start, bool goes_on);
   double fade(double time) const {
     const double left = options.end - frame - time;
@@ -176,6 +187,10 @@ struct Behaviour::Impl {
   double frame;
   std::int64_t count = 0;  // number of the next moment
   Activity activity = Activity::idle;
+  bool other_speaks = false;  // as it was heard last
+  double other_end = -10;     // when it was heard to end
+  double other_since = 0;     // when it began
+  double other_said = 0;      // seconds of it since the last nod
   std::deque<SpokenSpan> speech;
   behaviour::Gaze gaze;
   behaviour::Blinks blinks;
@@ -227,6 +242,21 @@ void Behaviour::Impl::speak(const SpeechPlan& plan, double start) {
   brows.speak(plan, start, now());
 }
 
+void Behaviour::Impl::hear(bool voice) {
+  const double time = now();
+  head.nod_at_pauses_only();
+  if (voice == other_speaks) return;
+  other_speaks = voice;
+  if (voice) {
+    other_since = time;
+    return;
+  }
+  other_end = time;
+  other_said += time - other_since;
+  blinks.expect_border(time, time);
+  if (other_said >= kWorthANod && head.pause_of_other(time)) other_said = 0;
+}
+
 void Behaviour::Impl::move_eyes(double time, FaceMoment& m) {
   const behaviour::EyeAngles eyes =
       behaviour::eyes_in_head(gaze.at(time), m.head_pitch, m.head_yaw, m.head_roll);
@@ -234,9 +264,9 @@ void Behaviour::Impl::move_eyes(double time, FaceMoment& m) {
   m.eye_pitch = eyes.pitch;
   for (std::size_t side = 0; side < 2; ++side) {
     const double down = eyes.pitch[side];
-    m.upper_lid[side] =
-        std::clamp(down * (down > 0 ? kUpperDown : kUpperUp), kLeastUpper, kMostUpper);
-    m.lower_lid[side] = -down * (down > 0 ? kLowerDown : kLowerUp);
+    const double upper = down * (down > 0 ? kUpperDown : kUpperUp);
+    m.upper_lid[side] = in_steps(std::clamp(upper, kLeastUpper, kMostUpper), kLidStep);
+    m.lower_lid[side] = in_steps(-down * (down > 0 ? kLowerDown : kLowerUp), kLidStep);
   }
 }
 
@@ -272,7 +302,7 @@ FaceMoment Behaviour::Impl::next() {
       m.upper_lid[side] -= kLidOfBrow * std::max(0.0, m.middle_brow[side]);
     }
     m.cheek = amount * brow.cheek;
-    m.nostril = kNostril * amount * head.breath();
+    m.nostril = in_steps(kNostril * amount * head.breath(), kNostrilStep);
     for (double& lid : m.lower_lid) lid += kLidOfCheek * m.cheek;
   }
   if (!options.still.blinks) m.blink = blinks.at(time);
@@ -311,6 +341,8 @@ void Behaviour::hush() {
   impl_->head.hush(now);
   impl_->brows.hush(now);
 }
+
+void Behaviour::hear(bool voice) { impl_->hear(voice); }
 
 void Behaviour::set_activity(Activity activity) { impl_->activity = activity; }
 

@@ -113,6 +113,9 @@ class Behaviour {
   void hush();
   /// What it does when it does not speak.
   void set_activity(Activity activity);
+  /// Whether the other one is heard to speak at the next moment. While it speaks, and for a second
+  /// after that, the face listens; it nods where the other one pauses, and no longer by itself.
+  void hear(bool voice);
   /// Another target of the eyes, from the next moment on.
   void look(const Look& target);
   /// The next moment, 1/rate seconds after the last; the first is at 0.

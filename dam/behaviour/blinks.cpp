@@ -8,8 +8,9 @@ namespace {
 
 // A minute: idle, listening (the other is looked at: fewer), thinking, speaking. Bentivoglio and
 // others 1997 have 17 at rest and 26 in conversation; phrases and gaze shifts bring some of these.
-constexpr double kPerMinute[] = {17, 14, 18, 22};
-constexpr double kVariation = 1;  // coefficient of variation of the intervals
+constexpr double kPerMinute[] = {17, 14, 18, 19.5};
+// Coefficient of variation of the intervals, likewise. Borders and shifts even out those of speech.
+constexpr double kVariation[] = {1, 1, 1, 1.7};
 constexpr double kDouble = 0.08, kLongest = 18;
 
 constexpr double kHalf = 0.18;     // share of blinks that do not close the eye
@@ -33,7 +34,7 @@ Blinks::Blinks(std::uint64_t seed, double liveliness, double end, double frame)
 double Blinks::interval(Mode mode) {
   const double a_minute = kPerMinute[std::size_t(mode)] * (0.5 + 0.5 * liveliness_);
   const double mean = (1 + kDouble) * 60 / a_minute;
-  return std::min(draw_.skewed(mean, kVariation * mean), kLongest);
+  return std::min(draw_.skewed(mean, kVariation[std::size_t(mode)] * mean), kLongest);
 }
 
 // Moves the next blink to a border nearby.

@@ -9,7 +9,7 @@ namespace {
 
 // Probability of a raise at an accent to which the pitch rises, and at another: seven of ten go
 // with a rise (Cavé and others 1996).
-constexpr double kAtRise = 0.4, kElsewhere = 0.33, kFrown = 0.12, kAtQuestion = 0.85;
+constexpr double kAtRise = 0.4, kElsewhere = 0.33, kFrown = 0.12;
 constexpr double kRaiseApart = 0.8;         // seconds between two raises
 constexpr double kMost = 110, kReach = 30;  // where a brow gets stiff, and how far it still goes
 constexpr double kSide = 0.14;              // standard deviation of a side from the other
@@ -67,10 +67,9 @@ void Brows::accent(const SpeechAccent& accent, double start, double now) {
 }
 
 void Brows::question(const SpeechPhrase& phrase, double start, double now) {
-  const bool raises = draw_.chance(kAtQuestion);
   const double size = draw_.between(60, 105), after = draw_.between(0.15, 0.5);
   const double end = start + phrase.end;
-  if (!raises || end < now) return;
+  if (end < now) return;
   One g;
   g.ending = true;
   g.onset = std::max({now, start + phrase.start, end - 0.75});

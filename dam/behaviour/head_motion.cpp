@@ -24,6 +24,10 @@ constexpr double kPostureSeconds = 0.16;  // time constant, twice in a row: a se
 // Time constant of a turn: larger ones are quicker, and take longer.
 constexpr double kTurn = 0.1, kTurnPerDegree = 0.0025;
 
+constexpr double kNoNod = std::numeric_limits<double>::infinity();
+// Of a listener who hears the other: pauses with a nod, and seconds between two groups of nods.
+constexpr double kNodAtPause = 0.75, kNodsApart = 1.0;
+
 constexpr double kOfPitch = 0.55, kOfTrend = 0.05;  // degrees a semitone
 constexpr double kMostSemitones = 7;
 
@@ -153,7 +157,20 @@ void HeadMotion::backchannel(double time) {
     gestures_.add(beat(middle, seconds, 0.45, {size, 0, 0}));
     middle += seconds;
   }
-  next_nod_ = time + 1.5 + draw_.exponential(4.5, 15);
+  last_nod_ = middle;
+  next_nod_ = hears_ ? kNoNod : time + 1.5 + draw_.exponential(4.5, 15);
+}
+
+void HeadMotion::nod_at_pauses_only() {
+  if (!hears_) next_nod_ = kNoNod;
+  hears_ = true;
+}
+
+bool HeadMotion::pause_of_other(double now) {
+  const double delay = draw_.between(0, 0.25);
+  if (now < last_nod_ + kNodsApart || !draw_.chance(kNodAtPause)) return false;
+  next_nod_ = now + delay;
+  return true;
 }
 
 void HeadMotion::breathe(double time, double seconds, Mode mode) {
@@ -205,7 +222,11 @@ HeadPose HeadMotion::at(double time, double seconds, Mode mode) {
   if (mode != mode_) {
     mode_ = mode;
     next_shift_ = std::min(next_shift_, time + draw_.between(0.3, 1.5));
-    next_nod_ = std::max(next_nod_, time + draw_.between(1, 4));
+    const double later = time + draw_.between(1, 4);
+    if (!hears_)
+      next_nod_ = std::max(next_nod_, later);
+    else if (mode != Mode::listening)
+      next_nod_ = kNoNod;
   }
   const std::size_t m = std::size_t(mode);
   while (!begins_.empty() && begins_.front() <= time) {

@@ -26,6 +26,10 @@ class HeadMotion {
   /// The phrase that ended last goes on: it has no end there.
   void go_on(double now);
   void hush(double now);
+  /// The other one can be heard: no nods but those of pause_of_other().
+  void nod_at_pauses_only();
+  /// The other one pauses: often a reason to nod. False: nods have been enough, for now.
+  bool pause_of_other(double now);
   /// It is turned from the beginning on.
   void start_turned(const Aim& goal) {
     turn_goal_ = goal;
@@ -66,7 +70,8 @@ class HeadMotion {
   SlowNoise slow_[3];
   BandNoise ordinary_[3], rapid_[3];
   Follower amplitude_;
-  double next_nod_ = 0;
+  double next_nod_ = 0, last_nod_ = -10;
+  bool hears_ = false;  // the other one
   double inhale_until_ = -1, next_breath_ = 0, quick_ = 1;
   Follower breath_;
   std::deque<Contour> voices_;

@@ -16,11 +16,15 @@ namespace {
 // Seconds beside speech that count as speech, and in which it comes and goes.
 constexpr double kSpeechBeside = 0.08, kSpeechTurn = 0.27;
 constexpr double kContactTurn = 0.07;  // seconds beside the stretch in which a contact is made
-constexpr double kTeethTurn = 0.08;
+constexpr double kTeethTurn = 0.14;
+// Likewise of the jaw, which is slower than the lips: people move it by 200 mm/s at most.
+constexpr double kJawTurn = 0.25;
+constexpr double kLipsWait =
+    0.7;  // of the lips' opening goes with the jaw, so that they need not hurry
 constexpr double kQuiteRound = 0.45;  // of LipRounding, which neighbours pull down
 
 constexpr double kSpokenOpening = 0.35;  // lips and jaw open as far in speech as in silence
-constexpr double kOpenGap = 200;         // FAP units beyond kClosedGap: lips that are free
+constexpr double kOpenGap = 320;         // FAP units beyond kClosedGap: lips that are free
 constexpr double kTeethTaken = 0.8;      // of the jaw is taken where the teeth are together
 constexpr double kRoundCorners = 1.0 / 6, kKeptRounding = 0.65;
 constexpr double kRoundHeight = 0.5;  // corners go up and down half as far
@@ -67,6 +71,7 @@ MoodMouth::Shares MoodMouth::at(double seconds) const {
   shares.teeth = inside(teeth_, seconds, kTeethTurn);
   shares.bite = inside(bites_, seconds, kContactTurn);
   shares.shut = inside(shuts_, seconds, kContactTurn);
+  shares.jaw = std::max(inside(bites_, seconds, kJawTurn), inside(shuts_, seconds, kJawTurn));
   shares.round = raised_step(rounding_(seconds) / kQuiteRound);
   return shares;
 }
@@ -96,8 +101,10 @@ void MoodLayer::move_mouth(const MoodPose& pose, const MoodMouth::Shares& shares
   const double gap = lips ? -(value(4) + value(5)) : 0;
   const double free = lips ? raised_step((gap - kClosedGap) / kOpenGap) : 1 - shares.shut;
   const double loose = 1 - shares.bite;
-  const double opening = loose * (shares.speech * kSpokenOpening * free + 1 - shares.speech);
-  const double jaw = opening * (1 - kTeethTaken * shares.teeth * shares.speech);
+  const double opening = loose * (1 - kLipsWait * shares.jaw) *
+                         (shares.speech * kSpokenOpening * free + 1 - shares.speech);
+  const double jaw = (1 - shares.jaw) * (1 - (1 - kSpokenOpening) * shares.speech) *
+                     (1 - kTeethTaken * shares.teeth * shares.speech);
   const double louder = 1 + (pose.style - 1) * free * loose;
   const double jaw_louder = 1 + (louder - 1) * (1 - shares.teeth);
   value(3) = jaw_louder * value(3) + jaw * pose.fap[3];

@@ -55,7 +55,8 @@ void add_to_faps(Signal& signal, const MoodMouth& mouth, const MoodTrack& track)
 double arkit_share(std::string_view shape, const MoodMouth::Shares& mouth) {
   const double free = (1 - mouth.shut) * (1 - mouth.bite);
   const double opening = 1 - mouth.speech + mouth.speech * 0.35 * free;
-  if (shape == "jawOpen") return opening * (1 - 0.8 * mouth.teeth * mouth.speech);
+  if (shape == "jawOpen")
+    return (1 - mouth.jaw) * (1 - 0.65 * mouth.speech) * (1 - 0.8 * mouth.teeth * mouth.speech);
   if (shape.starts_with("mouthSmile") || shape.starts_with("mouthStretch") ||
       shape.starts_with("mouthDimple")) {
     return 1 - mouth.round * 5 / 6;

@@ -20,7 +20,8 @@
 /// %
 ///   of the way that rounding has brought them together;
 /// - in S, Z, SH and the like the jaw hardly opens; in all speech, lips and jaw open a third as far
-///   as in silence.
+///   as in silence; for P, B, M, F and V the jaw comes up in time, no faster than people move it
+///   (below 200 mm/s).
 ///
 /// Brows, lids, cheeks and nose move fully; lids that blink close.
 #pragma once
@@ -136,6 +137,7 @@ class MoodMouth {
     double teeth = 0;   ///< 1: the teeth are together (S, SH)
     double bite = 0;    ///< 1: the lower lip is at the teeth (F, V)
     double shut = 0;    ///< 1: the lips are shut (P, B, M), by the times of the phones
+    double jaw = 0;     ///< 1: the jaw is up for P, B, M, F or V; slower than the lips
   };
   /// Cheap if times ascend.
   Shares at(double seconds) const;

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace animeme::dam {
 namespace behaviour_test {
@@ -68,6 +70,9 @@ TEST(Behaviour, NothingJumpsWhateverItIsTold) {
           break;
         case 2:
           behaviour.look(*parse_look(targets[below(5)]));
+          break;
+        case 3:
+          behaviour.hear(below(2) == 0);
           break;
         default:
           behaviour.set_activity(Activity(below(3)));
@@ -142,6 +147,76 @@ TEST(Behaviour, WaitsInThreeWays) {
   EXPECT_GT(idle, 0.65);
   EXPECT_LT(idle, listening);
   EXPECT_LT(contact(Activity::thinking), 0.5);
+}
+
+/// Nods of the head in these moments of 0.01 s, by the time of their beginnings: it goes down by a
+/// degree within 0.2 s.
+std::vector<double> nods_of(const std::vector<FaceMoment>& moments) {
+  std::vector<double> nods;
+  for (std::size_t i = 20; i < moments.size(); ++i) {
+    const double down = (moments[i].head_pitch - moments[i - 20].head_pitch) * kDegrees;
+    const double time = 0.01 * double(i - 20);
+    if (down > 1 && (nods.empty() || time > nods.back() + 0.8)) nods.push_back(time);
+  }
+  return nods;
+}
+
+TEST(Behaviour, NodsWhereTheOtherPauses) {
+  std::size_t pauses = 0, nodded = 0, all = 0, elsewhere = 0;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    BehaviourOptions options;
+    options.seed = seed;
+    options.rate = {100, 1};
+    options.still.gaze = true;
+    Behaviour behaviour = behaviour_of(options);
+    // Ten seconds in which the other has nothing to say, then sentences of 3.1 s with pauses
+    // of 1.4.
+    std::vector<FaceMoment> moments;
+    std::vector<double> ends;
+    bool spoke = false;
+    for (int i = 0; i < 30000; ++i) {
+      const bool speaks = i >= 1000 && (i - 1000) % 450 < 310;
+      behaviour.hear(speaks);
+      if (spoke && !speaks) ends.push_back(0.01 * i);
+      spoke = speaks;
+      moments.push_back(behaviour.next());
+    }
+    const std::vector<double> nods = nods_of(moments);
+    pauses += ends.size();
+    all += nods.size();
+    for (const double nod : nods) {
+      const bool near = std::any_of(ends.begin(), ends.end(),
+                                    [&](double end) { return nod > end - 0.1 && nod < end + 1; });
+      (near ? nodded : elsewhere) += 1;
+    }
+  }
+  EXPECT_GT(double(nodded), 0.5 * double(pauses)) << pauses << " pauses";
+  EXPECT_LT(double(nodded), 0.95 * double(pauses));
+  EXPECT_LT(double(elsewhere), 0.25 * double(all)) << "other motion of the head";
+}
+
+TEST(Behaviour, LooksAtTheOtherWhoSpeaks) {
+  const auto contact = [](bool voice, Activity activity) {
+    double share = 0;
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      BehaviourOptions options;
+      options.seed = seed;
+      Behaviour behaviour = behaviour_of(options);
+      behaviour.set_activity(activity);
+      for (int i = 0; i < 3000; ++i) {
+        behaviour.hear(voice);
+        const FaceMoment m = behaviour.next();
+        const double yaw = 0.5 * (m.eye_yaw[0] + m.eye_yaw[1]) + m.head_yaw;
+        const double pitch = 0.5 * (m.eye_pitch[0] + m.eye_pitch[1]) + m.head_pitch;
+        share += std::hypot(yaw, pitch) * kDegrees < 3.5 ? 1.0 / 12000 : 0;
+      }
+    }
+    return share;
+  };
+  for (const Activity activity : {Activity::idle, Activity::thinking, Activity::listening})
+    EXPECT_GT(contact(true, activity), 0.85) << int(activity);
+  EXPECT_LT(contact(false, Activity::idle), contact(true, Activity::idle));
+  EXPECT_LT(contact(false, Activity::thinking), 0.5) << "the other is silent";
 }
 
 TEST(Behaviour, NeverHoldsTheEyesClosed) {

@@ -16,9 +16,10 @@ namespace {
 constexpr double kFade = 0.25;  // seconds
 // A mouth that is cut off: seconds, at most where there is far to go; share of the speed of speech.
 constexpr double kClosing = 0.1, kLongestClosing = 0.16, kOfSpeed = 0.75;
-constexpr double kLongPhrase = 8;                    // seconds, of speech that is only heard
-constexpr double kIdleSeconds = 20;                  // of one piece
-constexpr double kMoodSpeech = 10, kMoodSound = 25;  // shares of a mood's mouth, at most, a second
+constexpr double kLongPhrase = 8;                   // seconds, of speech that is only heard
+constexpr double kIdleSeconds = 20;                 // of one piece
+constexpr double kMoodSpeech = 5, kMoodSound = 25;  // shares of a mood's mouth, at most, a second
+constexpr double kMoodJaw = 6;                      // likewise
 constexpr double kHistory = 1;  // seconds of a line that may still bear on what follows
 
 dam::Script silence() {
@@ -206,8 +207,9 @@ Result<TalkingFace> TalkingFace::open(const dam::Model& model, const FaceOptions
   return face;
 }
 
-// What a character has learned stays; shapes of ARKit, which move lids and brows besides the mouth,
-// are added to.
+// Cheeks and nostrils, which move by half a millimetre, would cost half a kbit/s in streams with an
+// intra plane each second; moods move them. What a character has learned stays; shapes of ARKit,
+// which move lids and brows besides the mouth, are added to.
 void TalkingFace::find_moving(const fap::Mask& known) {
   const bool faps =
       std::any_of(model_->controls.begin(), model_->controls.end(),
@@ -216,6 +218,7 @@ void TalkingFace::find_moving(const fap::Mask& known) {
   wanted.liveliness = options_.idle.liveliness;
   wanted.still = options_.idle.still;
   for (const int fap : dam::behaviour_faps(wanted)) {
+    if (fap == 41 || fap == 42 || fap == 61 || fap == 62) continue;
     const bool turns = (fap >= 23 && fap <= 26) || (fap >= 48 && fap <= 50);
     if (known[std::size_t(fap)] && (faps || turns)) continue;
     moving_.push_back(fap);
@@ -236,6 +239,10 @@ void TalkingFace::behave(fap::Frame& frame) {
 
 void TalkingFace::set_activity(dam::Activity activity) {
   if (behaviour_) behaviour_->set_activity(activity);
+}
+
+void TalkingFace::hear(bool voice) {
+  if (behaviour_) behaviour_->hear(voice);
 }
 
 void TalkingFace::look(const dam::Look& target) {
@@ -319,6 +326,7 @@ void TalkingFace::follow_sounds(const dam::MoodMouth::Shares& wanted) {
   shares_.teeth = nearer(shares_.teeth, wanted.teeth, kMoodSound * seconds);
   shares_.bite = nearer(shares_.bite, wanted.bite, kMoodSound * seconds);
   shares_.shut = nearer(shares_.shut, wanted.shut, kMoodSound * seconds);
+  shares_.jaw = nearer(shares_.jaw, wanted.jaw, kMoodJaw * seconds);
 }
 
 void TalkingFace::show_mood(fap::Frame& frame) {

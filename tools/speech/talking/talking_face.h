@@ -35,9 +35,10 @@ namespace animeme::speech {
 /// Options for speaking and idling.
 struct FaceOptions {
   dam::SynthesisOptions synthesis;  ///< `frames` and `tail` are not used
-  bool idle_motion = false;         ///< gaze, blinks, brows, head: see dam/behaviour/behaviour.h
-  dam::IdleMotionOptions idle;      ///< of the idle motion; `prosody` is not used
-  dam::Mood mood;                   ///< at the beginning
+  /// Gaze, blinks, brows, head (dam/behaviour/behaviour.h), without cheeks and nostrils.
+  bool idle_motion = false;
+  dam::IdleMotionOptions idle;  ///< of the idle motion; `prosody` is not used
+  dam::Mood mood;               ///< at the beginning
   /// A performance under the speech, which repeats (dam/performance); null: none.
   std::shared_ptr<const dam::Performance> over = nullptr;
   dam::KeptShares keep = {};  ///< what is kept of it
@@ -90,6 +91,8 @@ class TalkingFace {
   Result<void> cut();
   /// What the face does while it does not speak; thinking ends with the next line.
   void set_activity(dam::Activity activity);
+  /// Whether the other party speaks at the next frame: dam::Behaviour::hear().
+  void hear(bool voice);
   /// Where it looks from the next frame on. With gaze that is still, only the head turns.
   void look(const dam::Look& target);
   /// Whether the mouth is still closing, so that a line beginning now would start with an open
