@@ -9,13 +9,15 @@
 #include "dam/script/phones.h"
 #include "dam/signal/mouth_opening.h"
 #include "dam/speaking/frames_internal.h"
+#include "dam/speaking/moods.h"
 #include "dam/speaking/tongue.h"
 
 namespace animeme::dam {
 namespace {
 
-constexpr double kClosureReach = 0.5;   // seconds: half a phone, its search, hold and slopes
-constexpr double kBehind = 0.7;         // seconds made anew before a piece, for the closures in it
+constexpr double kClosureReach = 0.5;  // seconds: half a phone, its search, hold and slopes
+constexpr double kBehind = 0.7;        // seconds made anew before a piece, for the closures in it
+constexpr double kMoodReach = 0.4;  // seconds beside speech in which a mood has less of the mouth
 constexpr std::size_t kNeighbours = 2;  // phones on each side that a phone's shape depends on
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
@@ -56,6 +58,7 @@ double exact_look_ahead(const Model& model) { return reach_of(model) + kClosureR
 SpeechStream::SpeechStream(const Model& model, const StreamOptions& options)
     : model_(&model), options_(options), reach_(reach_of(model)) {
   if (articulation_of(model, options.synthesis) > 0) reach_ = std::max(reach_, kOpeningReach);
+  if (!options.mood.neutral()) reach_ = std::max(reach_, kMoodReach);
   if (options.synthesis.tongue) reach_ = std::max(reach_, kTongueReach);
 }
 
@@ -97,12 +100,22 @@ Result<Signal> SpeechStream::finish() {
 
 Result<Signal> SpeechStream::make(std::size_t end, double last_frame) {
   auto signal = piece(next_, end, last_frame);
-  if (!signal || signal->frames() == 0) return signal;
+  if (!signal) return signal;
+  if (signal->frames() == 0) {
+    if (auto ok = add_mood(*signal); !ok) return ok.error();  // the names of its channels
+    return signal;
+  }
   const std::size_t controls = signal->names.size();
   last_.assign(signal->values.end() - std::ptrdiff_t(controls), signal->values.end());
   next_ = end;
+  if (auto ok = add_mood(*signal); !ok) return ok.error();
   forget();
   return signal;
+}
+
+Result<void> SpeechStream::add_mood(Signal& signal) const {
+  if (options_.mood.neutral()) return {};
+  return add_moods(signal, {phones_}, MoodTrack(options_.mood));
 }
 
 /// Frames [first, end), made with enough before and behind them that closures come out right.

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "dam/model/model.h"
+#include "dam/script/mood.h"
 #include "dam/script/script.h"
 #include "dam/signal/signal.h"
 #include "dam/speaking/synthesise.h"
@@ -34,6 +35,9 @@ struct StreamOptions {
   /// Seconds of script that must be known beyond a frame, 0..60; nullopt: exact_look_ahead().
   std::optional<double> look_ahead;
   double cross_fade = 0.08;  ///< seconds, 0..1
+  /// From the first frame to the last, as add_moods() adds it: channels that it moves and the model
+  /// lacks follow the others.
+  Mood mood;
 };
 
 /// Seconds of script beyond a frame that can still change it: the reach of the widest phone of the
@@ -53,7 +57,7 @@ class SpeechStream {
   Result<void> push(const Phone& phone);
 
   /// The frames that became final since the last call, in order; often none. Signal::first_frame is
-  /// the number of the first. Errors: those of synthesise().
+  /// the number of the first. Errors: those of synthesise() and add_moods().
   Result<Signal> pull();
 
   /// Ends the script: returns all remaining frames, including `tail`.
@@ -63,6 +67,7 @@ class SpeechStream {
   Result<Signal> make(std::size_t end, double last_frame);
   Result<Signal> piece(std::size_t first, std::size_t end, double last_frame) const;
   void lead_over(Signal& signal) const;
+  Result<void> add_mood(Signal& signal) const;
   void forget();
 
   const Model* model_;

@@ -316,6 +316,7 @@ TEST_F(CSpeech, SpeaksAsTheLibraryDoes) {
   ASSERT_TRUE(script);
   dam::SynthesisOptions options;
   options.articulation = 1;
+  options.tongue = true;
   auto signal = dam::synthesise(*builtin, *script, options);
   ASSERT_TRUE(signal);
   ASSERT_TRUE(dam::add_idle_motion(*signal, *script));
@@ -328,6 +329,7 @@ TEST_F(CSpeech, Moods) {
   ASSERT_TRUE(script);
   dam::SynthesisOptions synthesis;
   synthesis.articulation = 1;
+  synthesis.tongue = true;
   auto signal = dam::synthesise(*dam::builtin_model(), *script, synthesis);
   ASSERT_TRUE(signal);
   ASSERT_TRUE(dam::add_idle_motion(*signal, *script));
@@ -352,6 +354,30 @@ TEST_F(CSpeech, Moods) {
   EXPECT_NE(speak(&options).get(), nullptr);
 }
 
+TEST_F(CSpeech, TheTongueMovesUnlessItIsTurnedOff) {
+  const auto tongue_of = [&](const animeme_speak_options& options) {
+    const auto clip = speak(&options);
+    int most = 0, present = 0;
+    animeme_frame frame = empty_frame();
+    for (std::size_t i = 0; i < animeme_clip_count(clip.get()); ++i) {
+      EXPECT_EQ(animeme_clip_get(clip.get(), i, &frame, nullptr), ANIMEME_OK);
+      present += frame.present[43];
+      most = std::max(most, std::abs(frame.value[43]));  // FAP 44
+    }
+    return std::pair(present > 0, most);
+  };
+  animeme_speak_options options;
+  animeme_speak_options_init(&options, sizeof options);
+  EXPECT_EQ(options.tongue, 1U);
+  EXPECT_TRUE(tongue_of(options).first);
+  EXPECT_GT(tongue_of(options).second, 100);
+  options.size = offsetof(animeme_speak_options, tongue);  // of a program that does not know it
+  EXPECT_TRUE(tongue_of(options).first);
+  animeme_speak_options_init(&options, sizeof options);
+  options.tongue = 0;
+  EXPECT_FALSE(tongue_of(options).first);
+}
+
 TEST_F(CSpeech, LooksAndStaysStill) {
   animeme_speak_options options;
   animeme_speak_options_init(&options, sizeof options);
@@ -362,6 +388,7 @@ TEST_F(CSpeech, LooksAndStaysStill) {
   ASSERT_TRUE(script);
   dam::SynthesisOptions synthesis;
   synthesis.articulation = 1;
+  synthesis.tongue = true;
   auto signal = dam::synthesise(*dam::builtin_model(), *script, synthesis);
   ASSERT_TRUE(signal);
   dam::IdleMotionOptions idle;
@@ -385,10 +412,13 @@ TEST_F(CSpeech, LooksAndStaysStill) {
   refused(ANIMEME_NOT_FOUND);
 }
 
-TEST_F(CSpeech, AStreamHasTheSameFramesAndOutlivesItsModel) {
+class CSpeechInMoods : public CSpeech, public testing::WithParamInterface<const char*> {};
+
+TEST_P(CSpeechInMoods, AStreamHasTheSameFramesAndOutlivesItsModel) {
   animeme_speak_options options;
   animeme_speak_options_init(&options, sizeof options);
   options.idle_motion = -1;
+  std::strcpy(options.mood, GetParam());
   const auto want = speak(&options);
   animeme_speech* made = nullptr;
   ASSERT_EQ(animeme_speech_new(model.get(), &options, &made, nullptr), ANIMEME_OK);
@@ -403,6 +433,7 @@ TEST_F(CSpeech, AStreamHasTheSameFramesAndOutlivesItsModel) {
     while ((status = animeme_speech_next(made, &got, nullptr)) == ANIMEME_OK) {
       ASSERT_EQ(animeme_clip_get(want.get(), next++, &expected, nullptr), ANIMEME_OK);
       ASSERT_TRUE(std::equal(std::begin(got.value), std::end(got.value), expected.value)) << next;
+      ASSERT_TRUE(std::equal(std::begin(got.present), std::end(got.present), expected.present));
       ASSERT_EQ(got.number, expected.number);
       ASSERT_EQ(got.seconds, expected.seconds);
     }
@@ -426,6 +457,10 @@ TEST_F(CSpeech, AStreamHasTheSameFramesAndOutlivesItsModel) {
   EXPECT_EQ(animeme_speech_push(made, 9, 10, "AA", &error), ANIMEME_INVALID_ARGUMENT);
 }
 
+INSTANTIATE_TEST_SUITE_P(Neutral, CSpeechInMoods, testing::Values(""));
+INSTANTIATE_TEST_SUITE_P(Moody, CSpeechInMoods,
+                         testing::Values("joy", "anger:0.6", "surprise", "ironic"));
+
 TEST_F(CSpeech, WhatIsWrongIsSaid) {
   animeme_clip* clip = nullptr;
   animeme_error error{};
@@ -438,6 +473,9 @@ TEST_F(CSpeech, WhatIsWrongIsSaid) {
   options.style = 7;
   animeme_speech* speech = nullptr;
   EXPECT_EQ(animeme_speech_new(model.get(), &options, &speech, &error), ANIMEME_INVALID_ARGUMENT);
+  options.style = 1;
+  std::strcpy(options.mood, "jooy");
+  EXPECT_EQ(animeme_speech_new(model.get(), &options, &speech, &error), ANIMEME_NOT_FOUND);
   const std::uint8_t noise[] = {'A', 'N', 'I', 'M', 'E', 'D', 'A', 'M', 1, 2, 3};
   animeme_model* other = nullptr;
   EXPECT_LT(animeme_model_read(noise, sizeof noise, &other, &error), 0);

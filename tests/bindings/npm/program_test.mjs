@@ -123,6 +123,33 @@ test('a speaker says what the program says', async () => {
   assert.throws(() => speaker.begin().push({start: 0, end: 1, phone: 'XX'}), {code: /invalid_argument|not_found/});
 });
 
+test('moods, looks, parts that are still and the tongue are those of the program', async () => {
+  const file = `${sample}/phonemes/prac8p.tsv`, script = readFileSync(file, 'utf8');
+  const speaker = await animeme.Speaker.load(readFileSync(`${source}/dam/model/builtin/grid_s1.dam`));
+  const cases = [
+    [{mood: 'joy:0.6', seed: 3}, ['--mood', 'joy:0.6', '--seed', '3']],
+    [{mood: 'thinking', look: '20,-5', still: 'blinks,brows'}, ['--mood', 'thinking', '--look', '20,-5', '--still', 'blinks,brows']],
+    [{tongue: false, idleMotion: 0.5}, ['--no-tongue', '--liveliness', '0.5']],
+    [{mood: 'anger', idleMotion: 0, style: 1.2}, ['--mood', 'anger', '--no-idle-motion', '--style', '1.2']],
+  ];
+  for (const [options, args] of cases) {
+    run('speak', '--script', file, ...args, '-o', 'moody.fap');
+    assert.deepEqual(speaker.speak(script, options).map(faceOf), readText(text('moody.fap')), args.join(' '));
+  }
+  const moodOf = (mood) => {
+    const speech = speaker.begin({mood});
+    speech.push({start: 0, end: 0.4, phone: 'AA'});
+    speech.finish();
+    return [...speech].map(faceOf);
+  };
+  assert.notDeepEqual(moodOf('sadness'), moodOf('neutral'));
+  assert.deepEqual(moodOf('neutral'), moodOf(undefined));
+  assert.throws(() => speaker.speak(script, {mood: 'jooy'}), {code: 'not_found'});
+  assert.throws(() => speaker.begin({mood: 'joy:9'}), {code: 'invalid_argument'});
+  assert.throws(() => speaker.speak(script, {look: 'up'}), {code: 'syntax'});
+  assert.throws(() => speaker.speak(script, {still: 'ears'}), {code: 'not_found'});
+});
+
 test('the face of an mp4 is that of its stream, whole, in fragments and in pieces', () => {
   run('speak', '--text', 'Hello there', '-o', 'hello.mp4');
   run('demux', 'hello.mp4', '--face', 'hello.fba');

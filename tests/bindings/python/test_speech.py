@@ -34,13 +34,13 @@ def spoken(model):
 
 
 def test_phones_become_a_face(model, phones):
-    speech = model.speak(phones, idle_motion=False)
+    speech = model.speak(phones, idle_motion=False, tongue=False)
     assert speech.names == model.controls and speech.values.shape == (len(speech.times), len(speech.names))
     assert speech.audio is None and speech.sample_rate == 0 and speech.phones == phones
     assert speech.rate == 25 and len(speech.clip) == len(speech.times)
     assert (speech.clip["open_jaw"] == np.round(speech.values[:, speech.names.index("fap3_open_jaw")])).all()
     assert len(model.speak(phones, rate=50).clip) == pytest.approx(2 * len(speech.clip), abs=1)
-    still = model.speak([tuple(p)[:3] for p in phones], style=0, articulation=0, idle_motion=False).values
+    still = model.speak([tuple(p)[:3] for p in phones], style=0, articulation=0, idle_motion=False, tongue=False).values
     assert np.ptp(still, axis=0).max() < np.ptp(speech.values, axis=0).max() / 2
     lively = model.speak(phones, seed=3)
     assert lively.names[: len(model.controls)] == model.controls and "fap19_close_t_l_eyelid" in lively.names
@@ -48,8 +48,7 @@ def test_phones_become_a_face(model, phones):
 
 @pytest.mark.skipif(not PROGRAM.exists(), reason="the program is not built")
 def test_the_face_is_that_of_the_program(model, phones, tmp_path):
-    command = [PROGRAM, "speak", "--script", SAMPLE / "phonemes/prac8p.tsv", "-o", tmp_path / "a.csv", "--idle-motion",
-               "--no-tongue"]
+    command = [PROGRAM, "speak", "--script", SAMPLE / "phonemes/prac8p.tsv", "-o", tmp_path / "a.csv", "--idle-motion"]
     subprocess.run(command, check=True, capture_output=True)
     theirs, ours = animeme.load(tmp_path / "a.csv"), model.speak(phones).clip
     # Curves are written with so many digits that a value halfway may be rounded the other way.
@@ -106,7 +105,7 @@ def test_wrong_wishes(model, phones):
 
 
 def test_streams_give_the_frames_of_the_whole(model, phones):
-    whole = model.speak(phones, idle_motion=False).values
+    whole = model.speak(phones, idle_motion=False, tongue=False).values
     stream = animeme.SpeechStream(model)
     pieces = [stream.push(*phone) for phone in phones]
     assert any(len(piece) for piece in pieces)
@@ -118,6 +117,19 @@ def test_streams_give_the_frames_of_the_whole(model, phones):
         stream.push(0, 1, "P")
     with pytest.raises(animeme.Error):
         animeme.SpeechStream(model, style=9)
+
+
+@pytest.mark.parametrize("mood", ["neutral", "joy", "sadness:0.5", "sleepy"])
+def test_streams_with_a_tongue_and_a_mood(model, phones, mood):
+    whole = model.speak(phones, idle_motion=False, mood=mood)
+    stream = animeme.SpeechStream(model, tongue=True, mood=mood)
+    made = np.concatenate([*[stream.push(*phone) for phone in phones], stream.finish()])
+    assert made.shape == whole.values.shape and np.abs(made - whole.values).max() < 1e-6
+    assert whole.names[len(model.controls)] == "fap44_raise_tongue_tip"
+    assert np.ptp(whole.clip["raise_tongue_tip"]) > 100
+    for wrong in ("jooy", "joy:3"):
+        with pytest.raises(animeme.Error):
+            animeme.SpeechStream(model, mood=wrong)
 
 
 def test_models_of_other_rigs_have_values_alone(phones):

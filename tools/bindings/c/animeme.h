@@ -333,7 +333,7 @@ typedef struct animeme_speak_options {
   double look_ahead;    ///< -1; seconds, 0..60; below 0: unlimited. animeme_speech only
   /// "": neutral. NAME or NAME:INTENSITY, ended by 0: "joy", "anger:0.5", "thinking" ... (the names
   /// of `animeme speak --mood`). NOT_FOUND: no such mood; UNSUPPORTED: a model that has neither
-  /// FAPs nor ARKit's shapes. animeme_speak() only
+  /// FAPs nor ARKit's shapes (then animeme_speech_push() or _finish() fail)
   char mood[32];
   /// "": "camera". Where the eyes look, ended by 0: "camera", "away", "YAW,PITCH" in degrees or
   /// "X,Y,Z" in metres, as `animeme speak --look`. SYNTAX, OUT_OF_RANGE. animeme_speak() only
@@ -341,6 +341,10 @@ typedef struct animeme_speak_options {
   /// "": none. Parts without idle motion, ended by 0: "gaze,head,brows,blinks". NOT_FOUND: no such
   /// part. animeme_speak() only
   char still[32];
+  /// 1: FAP 44 to 47 follow the sounds, for models that do not have the tongue; 0: it rests. FAP 47
+  /// does not fit into streams with fap_quant 0
+  uint32_t tongue;
+  uint32_t reserved_end;  ///< 0
 } animeme_speak_options;
 
 /// Sets the defaults.

@@ -22,6 +22,7 @@ animeme_speak_options speak_defaults() {
   options.articulation = -1;
   options.seed = 1;
   options.look_ahead = -1;
+  options.tongue = 1;
   return options;
 }
 

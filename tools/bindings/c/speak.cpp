@@ -45,6 +45,7 @@ dam::SynthesisOptions synthesis_options(const animeme_speak_options& from) {
   options.articulation = std::nullopt;
   if (!(from.articulation < 0)) options.articulation = from.articulation;
   options.tail = from.tail;
+  options.tongue = from.tongue != 0;
   return options;
 }
 
@@ -163,6 +164,9 @@ animeme_status animeme_speech_new(const animeme_model* model, const animeme_spea
     stream.synthesis = c::synthesis_options(taken);
     if (auto valid = dam::validate(stream.synthesis); !valid) return c::fail(error, valid.error());
     if (taken.look_ahead > 60) return c::invalid(error, "look_ahead must be 60 s at most");
+    auto mood = c::mood_of(taken);
+    if (!mood) return c::fail(error, mood.error());
+    stream.mood = std::move(*mood);
     if (taken.look_ahead >= 0) stream.look_ahead = taken.look_ahead;
     return c::give(
         speech,

@@ -144,12 +144,14 @@ export interface SpeakOptions {
   idleMotion?: number;
   /** Seed of the idle motion (1). */
   seed?: number | bigint;
-  /** "joy", "anger:0.5", "thinking" ... ("neutral"). Not of begin(). */
+  /** "joy", "anger:0.5", "thinking" ... ("neutral"). */
   mood?: string;
   /** Where the eyes look: "camera", "away", "YAW,PITCH" in degrees, "X,Y,Z" in metres ("camera"). Not of begin(). */
   look?: string;
   /** Parts without idle motion: "gaze,head,brows,blinks" (""). Not of begin(). */
   still?: string;
+  /** FAP 44 to 47 follow the sounds, for models that do not have the tongue (true). */
+  tongue?: boolean;
   /** For begin(): seconds; below 0: unlimited (-1). */
   lookAhead?: number;
 }

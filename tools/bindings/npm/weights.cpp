@@ -11,7 +11,7 @@ using namespace animeme;
 
 #define LIES_AT(type, member, place) static_assert(offsetof(type, member) == place)
 static_assert(sizeof(animeme_frame) == 432 && sizeof(animeme_body) == 1496);
-static_assert(sizeof(animeme_error) == 512 && sizeof(animeme_speak_options) == 168);
+static_assert(sizeof(animeme_error) == 512 && sizeof(animeme_speak_options) == 176);
 LIES_AT(animeme_error, line, 8);
 LIES_AT(animeme_error, column, 16);
 LIES_AT(animeme_error, bit, 24);
@@ -31,6 +31,9 @@ LIES_AT(animeme_speak_options, rate_num, 4);
 LIES_AT(animeme_speak_options, style, 16);
 LIES_AT(animeme_speak_options, seed, 56);
 LIES_AT(animeme_speak_options, look_ahead, 64);
+LIES_AT(animeme_speak_options, mood, 72);
+LIES_AT(animeme_speak_options, still, 136);
+LIES_AT(animeme_speak_options, tongue, 168);
 
 struct animeme_visemes {
   fap::VisemeFitter fitter;

@@ -73,8 +73,8 @@ std::unique_ptr<Speech> speak(const Model& model, const py::object& said, const 
                               std::optional<double> articulation, bool closure,
                               std::optional<bool> idle_motion, std::uint64_t seed, int speed,
                               int pitch, const std::string& tts, const std::string& mood,
-                              double liveliness, const std::string& still,
-                              const std::string& look) {
+                              double liveliness, const std::string& still, const std::string& look,
+                              bool tongue) {
   speech::SpokenOptions source;
   std::optional<dam::Script> script;
   if (py::isinstance<py::str>(said)) {
@@ -104,7 +104,8 @@ std::unique_ptr<Speech> speak(const Model& model, const py::object& said, const 
        .closure = closure,
        .style = style,
        .sharpness = sharpness,
-       .articulation = articulation},
+       .articulation = articulation,
+       .tongue = tongue},
       idle_motion,
       {liveliness, seed, value_of(dam::parse_still(still)), value_of(dam::parse_look(look))},
       value_of(dam::read_mood(mood))};
@@ -153,13 +154,16 @@ py::array_t<double> speech_times(const Speech& speech) {
 std::unique_ptr<dam::SpeechStream> make_stream(const Model& model, const py::object& rate,
                                                std::optional<double> look_ahead, double style,
                                                double sharpness, std::optional<double> articulation,
-                                               bool closure) {
+                                               bool closure, bool tongue, const std::string& mood) {
   const dam::StreamOptions options{{.rate = rate_of(rate),
                                     .closure = closure,
                                     .style = style,
                                     .sharpness = sharpness,
-                                    .articulation = articulation},
-                                   look_ahead};
+                                    .articulation = articulation,
+                                    .tongue = tongue},
+                                   look_ahead,
+                                   dam::StreamOptions().cross_fade,
+                                   value_of(dam::read_mood(mood))};
   value_of(dam::validate(options.synthesis));
   return std::make_unique<dam::SpeechStream>(model.model, options);
 }
@@ -174,13 +178,16 @@ void bind_speech_stream(py::module_& module) {
 A frame is returned as soon as no later phone can change it, or earlier with `look_ahead`.)")
       .def(py::init(&make_stream), py::arg("model"), py::kw_only(), py::arg("rate") = 25,
            py::arg("look_ahead") = py::none(), py::arg("style") = 1.0, py::arg("sharpness") = 1.0,
-           py::arg("articulation") = py::none(), py::arg("closure") = true, py::keep_alive<1, 2>(),
+           py::arg("articulation") = py::none(), py::arg("closure") = true,
+           py::arg("tongue") = false, py::arg("mood") = "neutral", py::keep_alive<1, 2>(),
            R"(A stream that begins at time 0.
 
 model: who speaks.
 rate: frames a second.
 look_ahead: seconds of script needed beyond a frame; None: everything that can change it.
-style, sharpness, articulation, closure: as for Model.speak().)")
+style, sharpness, articulation, closure: as for Model.speak().
+tongue, mood: likewise; what they move and the model lacks follows its controls as further columns:
+    FAP 44 to 47, then FAPs ascending.)")
       .def(
           "push",
           [](dam::SpeechStream& s, double start, double end, const std::string& label,
@@ -245,7 +252,7 @@ path, preset, quant, max_rms, max_bits_per_second, intra_seconds: as for Clip.sa
             py::arg("closure") = true, py::arg("idle_motion") = py::none(), py::arg("seed") = 1,
             py::arg("speed") = 175, py::arg("pitch") = 50, py::arg("tts") = "",
             py::arg("mood") = "neutral", py::arg("liveliness") = 1.0, py::arg("still") = "",
-            py::arg("look") = "camera",
+            py::arg("look") = "camera", py::arg("tongue") = true,
             R"(Speaks: returns a Speech.
 
 said: a text, plain or SSML, for a synthetic voice; or phones, tuples (start, end, label[, word]):
@@ -264,6 +271,7 @@ liveliness, still, look: its amount (0..2); parts without it ("gaze,head,brows,b
     eyes look: "camera", "away", "YAW,PITCH" in degrees, "X,Y,Z" in metres.
 speed, pitch: words a minute (80..450) and pitch (0..100) of the synthetic voice.
 tts: command of a voice of yours, that writes sound to {wav}.
+tongue: FAP 44 to 47 follow the sounds, for models without a tongue; it does not fit into streams with quant=0.
 mood: "joy", "anger:0.5", "thinking" ...; SSML, emoji and exclamation marks of the text change it.
 
 What a voice left out or spelled is warned of as InputWarning. Raises Error. Other threads run

@@ -5,7 +5,7 @@ export const BAPS = 296;
 export const FRAME_SIZE = 432;
 export const BODY_SIZE = 1496;
 export const ERROR_SIZE = 512;
-export const SPEAK_OPTIONS_SIZE = 168, TEXT_SIZE = 32;
+export const SPEAK_OPTIONS_SIZE = 176, TEXT_SIZE = 32;
 
 const INTRA = 1, FACE = 2, BODY = 4;
 const VALUE = 32, PRESENT = 304, VISEME = 372, EXPRESSION = 388, RULES = 412;
@@ -67,7 +67,8 @@ const expression6 = ({select1 = 0, intensity1 = 0, select2 = 0, intensity2 = 0, 
   [select1, intensity1, select2, intensity2, initFace ? 1 : 0, def ? 1 : 0];
 
 /** An animeme_speak_options that `_init` has filled. */
-export function writeSpeakOptions(memory, at, {rate, style, sharpness, articulation, tail, idleMotion, seed, lookAhead, mood, look, still}) {
+export function writeSpeakOptions(memory, at, options) {
+  const {rate, style, sharpness, articulation, tail, idleMotion, seed, lookAhead, mood, look, still, tongue} = options;
   const view = new DataView(memory, at, SPEAK_OPTIONS_SIZE);
   if (rate !== undefined) {
     const [num, den] = Array.isArray(rate) ? rate : rateOf(rate);
@@ -79,6 +80,7 @@ export function writeSpeakOptions(memory, at, {rate, style, sharpness, articulat
   });
   if (seed !== undefined) view.setBigUint64(56, BigInt(seed), true);
   if (lookAhead !== undefined) view.setFloat64(64, lookAhead, true);
+  if (tongue !== undefined) view.setUint32(168, tongue ? 1 : 0, true);
   [mood, look, still].forEach((text, i) => {
     if (text === undefined) return;
     const bytes = new TextEncoder().encode(text).subarray(0, TEXT_SIZE - 1);

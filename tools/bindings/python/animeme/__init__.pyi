@@ -261,6 +261,7 @@ class Model:
         liveliness: float = 1.0,
         still: str = "",
         look: str = "camera",
+        tongue: bool = True,
     ) -> Speech: ...
 
 class Speech:
@@ -304,6 +305,8 @@ class SpeechStream:
         sharpness: float = 1.0,
         articulation: Optional[float] = None,
         closure: bool = True,
+        tongue: bool = False,
+        mood: str = "neutral",
     ) -> None: ...
     def push(self, start: float, end: float, label: str, word: str = "") -> NDArray[np.float64]: ...
     def finish(self) -> NDArray[np.float64]: ...
