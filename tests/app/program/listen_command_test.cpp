@@ -172,5 +172,31 @@ TEST(ListenCommands, ExportWritesWhatRhubarbWrites) {
   EXPECT_EQ(animeme({"export", dir / "voice.wav", "-o", dir / "v.visemes.json"}).exit_code, 0);
 }
 
+TEST(Hear, IsForHeadsThatLive) {
+  const TempDir dir;
+  const std::string to = "udp://127.0.0.1:9", wave = dir / "other.wav";
+  spill(wave, std::string(2000, 'x'));
+  const std::vector<std::vector<std::string>> wrong = {
+      {"stream", "--hear", wave, "--to", to},
+      {"stream", "--text", "Hello", "--hear", wave, "--to", to},
+      {"stream", "--say", "-", "--hear", "-", "--to", to},
+      {"stream", "--say", "-", "--hear", wave, "--no-idle-motion", "--to", to},
+      {"stream", "--say", "-", "--hear", wave, "--hear-pcm", "7", "--to", to},
+      {"stream", "--say", "-", "--hear-pcm", "16000", "--to", to}};
+  for (const auto& arguments : wrong) EXPECT_EQ(animeme(arguments, "Hi.").exit_code, 2);
+  const auto none =
+      animeme({"stream", "--say", "-", "--hear", dir / "none.wav", "--to", to}, "Hi.");
+  EXPECT_EQ(none.exit_code, 3) << none.err;
+  // A sound that is none is told of, and the head goes on.
+  const auto noise = animeme({"stream", "--say", "-", "--hear", wave, "--to", to}, "Hello there.");
+  if (noise.err.find("built without") != std::string::npos) return;
+  EXPECT_EQ(noise.exit_code, 0) << noise.err;
+  EXPECT_THAT(noise.err, testing::HasSubstr("the sound of --hear has ended"));
+  const auto samples =
+      animeme({"stream", "--say", "-", "--hear", wave, "--hear-pcm", "16000:2", "--to", to},
+              "Hello there.");
+  EXPECT_EQ(samples.exit_code, 0) << samples.err;
+}
+
 }  // namespace listen_command_test
 }  // namespace animeme

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <map>
 #include <random>
 #include <set>
@@ -13,6 +14,7 @@
 #include "codec/decode/access_unit.h"
 #include "codec/decode/decoder.h"
 #include "dam/model/builtin.h"
+#include "dam/script/mood.h"
 #include "dam/signal/fap_signal.h"
 #include "tools/speech/talking/line_queue.h"
 #include "tools/speech/talking/live_speaker.h"
@@ -61,9 +63,11 @@ struct Stage {
   std::optional<LineQueue::Job> job;
   bool joins = false;
 
-  explicit Stage(bool life = false, int quant = 0) {
+  explicit Stage(bool life = false, int quant = 0, bool tongue = false, std::uint64_t seed = 1) {
     SpeakerOptions options;
     options.face.idle_motion = life;
+    options.face.idle.seed = seed;
+    options.face.synthesis.tongue = tongue;
     options.events = true;
     options.fap_quant = quant;  // 0: exactly
     options.audio = media::AudioSettings{media::AudioCodec::opus};
@@ -272,6 +276,92 @@ TEST_F(Barge, LooksAndStopsNeverMakeTheFaceJump) {
   for (const fap::Frame& frame : clip.frames)
     turned = std::max(turned, std::abs(double(frame.value[49])) / 1745);
   EXPECT_GT(turned, 20) << "the head goes along with looks of 60 degrees";
+}
+
+// Lines, stops, moods, looks, states and the voice of the other, 200 times, at random times.
+fap::Sequence everything_at_once(std::uint64_t seed) {
+  Stage stage(true, 1, true, seed);
+  const std::vector<std::string> moods = dam::mood_names();
+  const char* const targets[] = {"camera", "away", "50,-20", "-60,40", "0.3,-0.2,0.4"};
+  const char* const others[] = {R"("stop")", R"("drop")", R"("listen")", R"("think")", R"("idle")"};
+  std::mt19937 random{std::uint32_t(seed)};
+  const auto below = [&](std::size_t count) { return random() % count; };
+  const auto mood = [&] {
+    const std::string name = moods[below(moods.size())];
+    return R"("mood":")" + name + ":" + std::to_string(0.5 * double(below(3))) + "\"";
+  };
+  double now = 0.3;
+  for (int i = 0; i < 200; ++i) {
+    stage.run(now);
+    const std::string words(1, char('a' + below(5)));
+    switch (below(8)) {
+      case 0:
+        stage.push(command(R"("mood",)" + mood()));
+        break;
+      case 1:
+        stage.push(command(R"("look","target":")" + std::string(targets[below(5)]) + "\""));
+        break;
+      case 2:
+        stage.push(command(below(2) == 0 ? R"("hear","voice":true)" : R"("hear","voice":false)"));
+        break;
+      case 3:
+        stage.push(command(others[below(std::size(others))]));
+        break;
+      case 4:
+      case 5: {
+        const char* const when = below(2) == 0 ? "now" : "next";
+        stage.push(command(R"("say","text":")" + words + R"(","when":")" + when + "\"," + mood()));
+        break;
+      }
+      default:
+        stage.push(words);
+    }
+    now += 0.04 * double(below(40));
+  }
+  stage.run(now + 2);
+  stage.end();
+  return stage.face();
+}
+
+// What people do at most in 40 ms, in units of each FAP. Jaw 200 mm/s, lips 300 (Ostry, Munhall
+// 1985: half of that in speech), corners 200, brows and cheeks 120, nose 60; lids shut in 60 ms;
+// head 150 degrees/s; saccades 700. For a face with mouth 50, mouth to nose 27, eye to nose 48 mm.
+double most_of_people(int fap) {
+  const fap::FapInfo& info = fap::info(fap);
+  const auto millimetres = [&](double a_second) {
+    const double size = info.unit == fap::Unit::mw ? 50 : info.unit == fap::Unit::mns ? 27 : 48;
+    return a_second * 0.04 / size * 1024;
+  };
+  constexpr double kDegree = 1745.3;
+  switch (info.group) {
+    case 2:
+    case 8:
+      if (fap == 3 || (fap >= 14 && fap <= 18)) return millimetres(200);
+      return millimetres(info.unit == fap::Unit::mw ? 200 : 300);
+    case 3:
+      return fap <= 22 ? 1250 : 28 * kDegree;
+    case 4:
+    case 5:
+      return millimetres(120);
+    case 7:
+      return 6 * kDegree;
+    case 9:
+      return millimetres(60);
+    default:
+      return std::numeric_limits<double>::infinity();  // the tongue: below
+  }
+}
+
+TEST_F(Barge, MoodsLooksAndVoicesAtRandomAskNothingThatPeopleCannotDo) {
+  for (const std::uint64_t seed : {1u, 2u}) {
+    const fap::Sequence clip = everything_at_once(seed);
+    ASSERT_GT(clip.frames.size(), 2000u);
+    const auto steps = largest_steps(clip);
+    for (int fap = int(fap::kFirstLowLevel); fap <= int(fap::kFapCount); ++fap)
+      EXPECT_LE(steps[std::size_t(fap)], most_of_people(fap)) << fap << ", seed " << seed;
+    // The tip goes from the floor to the ridge in two frames at least.
+    for (const std::size_t fap : {44, 45, 46}) EXPECT_LE(steps[fap], 700) << fap;
+  }
 }
 
 TEST_F(Barge, IdleMotionLeavesTheMouthAlone) {

@@ -96,6 +96,20 @@ TEST(LineCommand, Looks) {
   }
 }
 
+TEST(LineCommand, HearsOfTheOther) {
+  for (const bool json : {false, true}) {
+    for (const bool voice : {false, true}) {
+      const LineCommand hear =
+          good(std::string(R"({"do":"hear","voice":)") + (voice ? "true}" : "false}"), json);
+      EXPECT_EQ(hear.what, Do::hear);
+      EXPECT_EQ(hear.voice, voice);
+    }
+    for (const char* wrong : {R"({"do":"hear"})", R"({"do":"hear","voice":1})",
+                              R"({"do":"hear","voice":"yes"})", R"({"do":"hear","voice":null})"})
+      EXPECT_FALSE(read_line(wrong, json)) << wrong;
+  }
+}
+
 TEST(LineCommand, AllOtherLinesAreSaid) {
   for (const char* text : {"Hello.", "{ is a bracket", "{}", R"({"text": "no do"})", "[1]",
                            "{\"what\" to \"do\" now?", R"(say {"do":"stop"})"}) {

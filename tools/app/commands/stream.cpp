@@ -48,6 +48,14 @@ std::string bad_options(const StreamOptions& options) {
     return "nothing to stream: name a file with a face, or give --text, --script, --audio or --say "
            "-";
   }
+  if (!what.hear.empty() && !said)
+    return "--hear is for heads that live: --say, --say-json, --control";
+  if (what.hear == "-" && (what.say == "-" || what.say_json == "-")) {
+    return "--hear and the lines to say cannot both come from standard input";
+  }
+  if (!what.hear.empty() && !options.idle.on.value_or(true)) {
+    return "--hear needs idle motion: the face listens by it";
+  }
   if (said && what.loop) return "--loop repeats clips, --say is none";
   if (said && options.fast) {
     return "--fast does not go with --say, whose lines come in their own time";
@@ -249,6 +257,11 @@ Result<int> run(StreamOptions& options) {
     const auto bare = speech::parse_bare_sound(options.pcm);
     if (!bare) return bare.error();
     options.program.bare = *bare;
+  }
+  if (!options.hear_pcm.empty()) {
+    const auto bare = speech::parse_bare_sound(options.hear_pcm);
+    if (!bare) return bare.error();
+    options.program.hear_bare = *bare;
   }
   const bool rtc = std::any_of(options.to.begin(), options.to.end(), live::takes_opus_alone);
   options.program.coding.codec_given = rtc || !options.codec.empty();

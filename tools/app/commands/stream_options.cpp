@@ -44,6 +44,16 @@ void add_source_options(OptionTable& cli, StreamOptions& options) {
           "Write the progress of each line, word and phone as JSON lines; - for standard "
           "output")
       ->output("");
+  cli.add("--hear", options.program.hear,
+          "Sound of the other party, as it arrives: the face listens while it speaks and nods at "
+          "its "
+          "pauses; WAV file or pipe, - for standard input; for --say, --say-json and --control")
+      ->value("FILE")
+      ->excludes("--say-audio");
+  cli.add("--hear-pcm", options.hear_pcm, "--hear is raw 16-bit PCM: 16000, 48000:2 ...")
+      ->value("RATE[:CHANNELS]")
+      ->check(problem_of<speech::parse_bare_sound>)
+      ->needs("--hear");
   cli.add("--loop", options.program.loop, "Repeat the clip; time stamps continue");
   cli.add("--duration", options.program.duration, "End after so many seconds")->above_zero();
   cli.add("--no-sound", options.no_sound, "Send the face only");
@@ -154,7 +164,7 @@ void add_options(OptionTable& cli, StreamOptions& options) {
   cli.show_in_help_all(
       "Voices, coding and transport",
       "--tier --speaker --speak-marks --script-format --max-seconds --speed --pitch --liveliness "
-      "--look --still --seed --no-tongue --mtu --repeat --repeat-after "
+      "--look --still --seed --no-tongue --hear-pcm --mtu --repeat --repeat-after "
       "--bundle --max-clients --max-per-address --allow-origin --host-name --delay --intra-seconds "
       "--points --shape-name --shape-names --gain --copy --quant --rms --kbps --small "
       "--default-ranges --encoder-delay --stats "

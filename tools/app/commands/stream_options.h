@@ -31,6 +31,7 @@ struct StreamOptions {
   IdleOptions idle;              ///< --idle-motion and its like
   OverChoice over;               ///< --over, --keep
   std::string pcm;               ///< --pcm
+  std::string hear_pcm;          ///< --hear-pcm
   std::string events;            ///< --events
   bool no_sound = false;         ///< --no-sound
   bool fast = false;             ///< --fast

@@ -128,6 +128,10 @@ Result<void> open_speaker(const ProgramOptions& options, fap::Rate rate, Program
       speech::LiveSpeaker::open(program.model, *program.lines, media::steady_clock(), settings);
   if (!speaker) return speaker.error();
   program.speaker = std::move(*speaker);
+  if (options.hear.empty()) return {};
+  auto other = speech::OtherVoice::open(options.hear, options.hear_bare);
+  if (!other) return other.error();
+  program.speaker->hear(std::move(*other));
   return {};
 }
 

@@ -27,7 +27,10 @@ struct ProgramOptions {
   std::string say_json;   ///< the same for pieces (tools/speech/talking/pieces.h); one of the two
   std::string control;    ///< path of a control socket for lines and commands; empty: none
   std::string say_audio;  ///< sound of a live voice, "-": standard input
-  std::optional<speech::BareSound> bare;            ///< format of raw samples; nullopt: WAV
+  std::optional<speech::BareSound> bare;  ///< format of raw samples; nullopt: WAV
+  std::string
+      hear;  ///< sound of the other party, as speech::OtherVoice::open() has it; empty: none
+  std::optional<speech::BareSound> hear_bare;       ///< format of its raw samples; nullopt: WAV
   double delay = speech::LiveVoiceOptions().delay;  ///< seconds, for a live voice
   double coding_delay = 0;       ///< seconds, as speech::SpeakerOptions::coding_delay
   speech::SpokenOptions spoken;  ///< text, script or voice
@@ -69,9 +72,10 @@ Result<Clip> spoken_clip(const ProgramOptions& options, fap::Rate rate, const to
 /// Makes `program` play a clip.
 void play_clip(Clip clip, const ProgramOptions& options, Program& program);
 
-/// Makes `program` a head that speaks the lines of options.say or say_json, and of options.control.
+/// Makes `program` a head that speaks the lines of options.say or say_json, and of options.control,
+/// and listens to options.hear.
 /// `program` must not be moved. Errors: those of speech::read_model(), speech::ControlSocket,
-/// VoiceLines and LiveSpeaker; not_found (no such file).
+/// VoiceLines, OtherVoice and LiveSpeaker; not_found (no such file).
 Result<void> open_speaker(const ProgramOptions& options, fap::Rate rate, Program& program);
 
 /// Makes `program` a head that follows the voice of options.say_audio; waits for its first bytes.

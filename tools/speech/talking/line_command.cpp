@@ -17,7 +17,7 @@ using When = LineCommand::When;
 constexpr std::pair<std::string_view, Do> kDos[] = {
     {"say", Do::say},     {"stop", Do::stop}, {"drop", Do::drop}, {"mark", Do::mark},
     {"end", Do::end},     {"mood", Do::mood}, {"look", Do::look}, {"listen", Do::listen},
-    {"think", Do::think}, {"idle", Do::idle}};
+    {"think", Do::think}, {"idle", Do::idle}, {"hear", Do::hear}};
 constexpr std::pair<std::string_view, When> kWhens[] = {
     {"now", When::now}, {"next", When::next}, {"last", When::last}};
 
@@ -101,6 +101,9 @@ Result<void> check_members(const Json& object, Do what) {
     case Do::look:
       known.insert(known.end(), {"target"});
       break;
+    case Do::hear:
+      known.insert(known.end(), {"voice"});
+      break;
     default:
       break;
   }
@@ -152,6 +155,14 @@ Result<LineCommand> command_of(const Json& object, std::string line, bool json) 
     Result<dam::Look> target = read_target(object);
     if (!target) return target.error();
     command.target = *target;
+  }
+  if (command.what == Do::hear) {
+    const Json* voice = object.find("voice");
+    if (voice == nullptr || !voice->is_boolean()) {
+      return make_error(Code::invalid_argument,
+                        "put into \"voice\" whether the other party speaks: true or false");
+    }
+    command.voice = voice->get<bool>();
   }
   if (command.what == Do::mood && !command.mood) {
     return make_error(Code::invalid_argument,

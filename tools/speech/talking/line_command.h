@@ -8,6 +8,7 @@
 ///     {"do": "mood", "mood": "joy:0.6"}                       the mood from now on
 ///     {"do": "look", "target": "20,-5"}                       where the eyes look (dam/behaviour)
 ///     {"do": "listen"}, "think", "idle"                       what the face does between lines
+///     {"do": "hear", "voice": true}                           the other speaks; false: it pauses
 ///     {"do": "end"}                                           end when everything is spoken
 ///
 /// Lines to say may have a "lang" ("de", "en-gb+f3") in place of that of the head, and a "mood" of
@@ -29,7 +30,19 @@ namespace animeme::speech {
 /// One line of input.
 struct LineCommand {
   /// Kind of the line.
-  enum class Do : std::uint8_t { say, stop, drop, mark, end, mood, look, listen, think, idle };
+  enum class Do : std::uint8_t {
+    say,
+    stop,
+    drop,
+    mark,
+    end,
+    mood,
+    look,
+    listen,
+    think,
+    idle,
+    hear
+  };
   /// Position in the queue.
   enum class When : std::uint8_t {
     now,   ///< replaces current speech and the queue
@@ -44,7 +57,8 @@ struct LineCommand {
   std::string language;    ///< say: of the text; empty: that of the head
   /// say: of the line, nullopt: that of the head; mood: given
   std::optional<dam::Mood> mood;
-  dam::Look target;  ///< look: the target
+  dam::Look target;    ///< look: the target
+  bool voice = false;  ///< hear: the other party speaks
 };
 
 /// Maximum size of a command among lines of text, bytes.
@@ -55,8 +69,8 @@ inline constexpr std::size_t kMostCommand = std::size_t(1) << 20;
 /// piece with "do": "say" has a position in the queue. If lines are text, one that begins with {
 /// and is not a command remains text, unless it is broken JSON with a "do" in it. Errors: syntax
 /// (broken JSON, a member of a wrong type), not_found (unknown "do", "when" or mood),
-/// invalid_argument (nothing to say, no target, an intensity out of range; a member that the
-/// command does not have, except among pieces, where "say" has those of a piece), those of
+/// invalid_argument (nothing to say, no target, no voice, an intensity out of range; a member that
+/// the command does not have, except among pieces, where "say" has those of a piece), those of
 /// dam::parse_look().
 Result<LineCommand> read_line(std::string line, bool json);
 

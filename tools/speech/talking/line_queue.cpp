@@ -41,6 +41,10 @@ LineNews behaviour_news(const LineCommand& command, double at) {
       news.what = LineNews::What::look;
       news.target = command.target;
       break;
+    case LineCommand::Do::hear:
+      news.what = LineNews::What::hear;
+      news.voice = command.voice;
+      break;
     case LineCommand::Do::listen:
       news.activity = dam::Activity::listening;
       break;
@@ -91,6 +95,7 @@ Result<void> LineQueue::push(std::string line, double arrived) {
     case LineCommand::Do::listen:
     case LineCommand::Do::think:
     case LineCommand::Do::idle:
+    case LineCommand::Do::hear:
       news_.push_back(behaviour_news(*command, arrived));
       break;
     case LineCommand::Do::mood: {

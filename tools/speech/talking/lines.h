@@ -63,6 +63,7 @@ struct LineNews {
     look,       ///< the eyes look at `target`
     activity,   ///< what the face does between lines: `activity`
     word,       ///< a word of a line that take() has returned became known: `text`, `start`
+    hear,       ///< the other party begins or ends to speak: `voice`
   };
   What what = What::queued;                      ///< kind
   std::uint64_t line = 0;                        ///< SpokenLine::line
@@ -74,6 +75,7 @@ struct LineNews {
   dam::Mood mood;                                ///< a mood
   dam::Look target;                              ///< of the eyes
   dam::Activity activity = dam::Activity::idle;  ///< between lines
+  bool voice = false;                            ///< of the other party
   double at = 0;                                 ///< instant on the clock of the lines
   double start = 0;     ///< word: seconds from the begin of the line's sound
   double duration = 0;  ///< word: seconds

@@ -15,12 +15,20 @@ using media::LiveUnit;
 
 }  // namespace
 
+void LiveSpeaker::Impl::listen() {
+  if (!other) return;
+  face.hear(other->at(frame_due()));
+  if (const auto error = other->take_error())
+    warnings.push_back("the sound of --hear has ended: " + error->describe());
+}
+
 Result<LiveUnit> LiveSpeaker::Impl::make_plane() {
   LiveUnit unit;
   unit.track = LiveTrack::face;
   unit.time = face.number() * frame_ticks;
   unit.duration = frame_ticks;
   const bool speaking = face.speaking();
+  listen();
   const Result<fap::Frame> frame = face.next();
   if (!frame) return frame.error();
   if (speaking && !face.speaking()) {
@@ -122,6 +130,8 @@ bool LiveSpeaker::silent() const {
   const bool settled = impl_->frame_due() >= end + impl_->options.coding_delay;
   return !impl_->waiting && !impl_->face.speaking() && settled;
 }
+
+void LiveSpeaker::hear(std::unique_ptr<OtherVoice> other) { impl_->other = std::move(other); }
 
 std::vector<LineEvent> LiveSpeaker::take_events() { return impl_->events.take(); }
 

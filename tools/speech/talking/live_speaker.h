@@ -24,6 +24,7 @@
 #include "tools/formats/media/live/presentation.h"
 #include "tools/speech/talking/line_events.h"
 #include "tools/speech/talking/lines.h"
+#include "tools/speech/talking/other_voice.h"
 #include "tools/speech/talking/talking_face.h"
 
 /// Live talking heads and their lines.
@@ -76,6 +77,10 @@ class LiveSpeaker : public media::LiveInput {
   std::optional<double> next_due() override;
   Result<std::vector<media::LiveUnit>> take(double now) override;
   void sent(const media::LiveUnit& unit, double instant) override;
+
+  /// What the other party says is heard from now on: the face listens while it speaks, and nods at
+  /// its pauses. Null: nothing is heard.
+  void hear(std::unique_ptr<OtherVoice> other);
 
   /// Events up to the last sent frame, in order, since the last call.
   std::vector<LineEvent> take_events();

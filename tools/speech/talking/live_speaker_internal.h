@@ -37,6 +37,7 @@ struct LiveSpeaker::Impl {
   double settled = 0;          // presentation time at which a mouth that was cut off is at rest
   LineEvents events;
   LineTraces traces;
+  std::unique_ptr<OtherVoice> other;  // null: nobody is heard
   std::vector<std::string> warnings;
 
   double frame_due() const { return double(face.number() * frame_ticks) / info.timescale; }
@@ -58,6 +59,7 @@ struct LiveSpeaker::Impl {
   bool has_to_wait(const SpokenLine& line) const;
   void begin_lines(double now);
   Result<void> begin(SpokenLine& line, LineTrace& trace);
+  void listen();
   void cancel(const SpokenLine& line, const std::string& why);
   Result<media::LiveUnit> make_plane();
   Result<media::LiveUnit> make_packet();

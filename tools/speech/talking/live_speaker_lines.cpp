@@ -88,6 +88,9 @@ void LiveSpeaker::Impl::follow(const LineNews& news, double time) {
     case LineNews::What::activity:
       face.set_activity(news.activity);
       return;
+    case LineNews::What::hear:
+      face.hear(news.voice);
+      return;
     case LineNews::What::mood:
       face.set_mood(news.mood);
       return;

@@ -103,6 +103,11 @@ Result<int> SoundPipe::wait_for_rate() {
   return impl_->rate;
 }
 
+int SoundPipe::rate_so_far() {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->rate;
+}
+
 std::vector<float> SoundPipe::take(std::size_t most) {
   const std::lock_guard lock(impl_->mutex);
   std::deque<float>& all = impl_->samples;

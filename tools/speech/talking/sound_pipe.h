@@ -37,6 +37,8 @@ class SoundPipe : public SoundFeed {
   ~SoundPipe() override;
   /// Waits for the sample rate; 0: there are no samples. Errors: those of SoundBytes.
   Result<int> wait_for_rate();
+  /// The sample rate if it is known by now; 0: not yet. Does not wait.
+  int rate_so_far();
 
   std::vector<float> take(std::size_t most) override;
   bool over() override;
