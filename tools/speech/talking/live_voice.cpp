@@ -220,6 +220,9 @@ void LiveVoice::Impl::follow(const LineNews& news, double time) {
     case LineNews::What::activity:
       life.set_activity(news.activity);
       return;
+    case LineNews::What::hear:
+      life.hear(news.voice);
+      return;
     case LineNews::What::mood:
       life.set_mood(news.mood);
       return;
