@@ -6,15 +6,18 @@
 #include <type_traits>
 
 #include "fap/head/rig.h"
-#include "tools/formats/files/files.h"
+#include "tools/formats/files/private_folder.h"
 #include "tools/view/studio/head_build.h"
+#include "tools/view/studio/head_sound_internal.h"
 
 namespace animeme::studio {
 namespace {
 
 constexpr std::size_t kSumSize = sizeof(std::uint64_t);
+constexpr std::uint64_t kMostBytes = std::uint64_t(32) << 20;  // a head has 5 MB
+constexpr std::size_t kLeastTarget = 24;                       // bytes of an empty one
 
-// FNV-1a by words of eight bytes.
+// FNV-1a by words of eight bytes: it finds what a disk lost, not what somebody made.
 std::uint64_t sum_of(std::string_view bytes) {
   std::uint64_t sum = 0xCBF29CE484222325u;
   for (std::size_t i = 0; i < bytes.size(); i += sizeof(std::uint64_t)) {
@@ -66,6 +69,13 @@ struct Reader {
     static_assert(std::is_trivially_copyable_v<T>);
     take(&value, sizeof value);
   }
+  // The byte of a bool may be of any value.
+  void operator()(bool& value) {
+    std::uint8_t byte = 0;
+    take(&byte, sizeof byte);
+    whole = whole && byte <= 1;
+    value = byte == 1;
+  }
   std::size_t count(std::size_t size) {
     std::uint64_t count = 0;
     (*this)(count);
@@ -81,7 +91,7 @@ struct Reader {
     values.resize(count(sizeof(T)));
     if (!values.empty()) take(values.data(), values.size() * sizeof(T));
   }
-  void operator()(std::vector<head::Target>& targets) { targets.resize(count(1)); }
+  void operator()(std::vector<head::Target>& targets) { targets.resize(count(kLeastTarget)); }
 };
 
 // Each field once, for both directions.
@@ -132,7 +142,7 @@ std::string store_head(const head::Head& head) {
 }
 
 std::optional<head::Head> restore_head(std::string_view bytes) {
-  if (bytes.size() < kSumSize) return std::nullopt;
+  if (bytes.size() < kSumSize || bytes.size() > kMostBytes) return std::nullopt;
   std::uint64_t sum = 0;
   std::memcpy(&sum, bytes.data() + bytes.size() - kSumSize, kSumSize);
   Reader reader{bytes.substr(0, bytes.size() - kSumSize)};
@@ -143,7 +153,7 @@ std::optional<head::Head> restore_head(std::string_view bytes) {
   }
   std::optional<head::Head> head(std::in_place);
   all_fields(reader, *head);
-  if (!reader.whole || !reader.bytes.empty()) head.reset();
+  if (!reader.whole || !reader.bytes.empty() || !is_sound(*head)) head.reset();
   return head;
 }
 
@@ -164,7 +174,7 @@ Result<head::Head> ready_head(std::string_view name, const std::string& folder) 
   const std::filesystem::path path =
       std::filesystem::path(folder) / ("head-" + parameters->name + ".bin");
   if (!folder.empty()) {
-    if (const auto bytes = tools::read_file(path)) {
+    if (const auto bytes = tools::read_private_file(path, kMostBytes)) {
       const std::string_view view(reinterpret_cast<const char*>(bytes->data()), bytes->size());
       auto head = restore_head(view);
       if (head && head->name == parameters->name) return std::move(*head);
@@ -175,9 +185,7 @@ Result<head::Head> ready_head(std::string_view name, const std::string& folder) 
   head->targets = head::make_rig(*head).targets;
   head->eased = true;
   if (folder.empty()) return head;
-  std::error_code ignored;
-  std::filesystem::create_directories(folder, ignored);
-  (void)tools::write_file(path, store_head(*head));
+  (void)tools::write_private_file(path, store_head(*head));
   return head;
 }
 

@@ -2,9 +2,11 @@
 /// A cache of the built-in heads, ready to move, in the user's cache folder.
 ///
 /// The folder is $XDG_CACHE_HOME/animeme, else ~/.cache/animeme; with a file of about 5 MB per
-/// head. A file is used only if it is intact and from this build, and is otherwise rewritten;
-/// without a writable folder, heads are made each time. Cached heads are identical, bit by bit. The
-/// files may be removed at any time.
+/// head. It belongs to the user alone (mode 0700; see private_folder.h): no link is followed. A
+/// file is used only if it is intact, from this build, and a head that a rig can move (each index
+/// within its list, each number finite), and is otherwise rewritten; without such a folder, heads
+/// are made each time. Cached heads are identical, bit by bit. The files may be removed at any
+/// time.
 #pragma once
 
 #include <optional>
@@ -25,7 +27,8 @@ Result<head::Head> ready_head(std::string_view name, const std::string& folder =
 
 /// Serialises a head, without materials, shapes and corners, which built-in heads do not have.
 std::string store_head(const head::Head& head);
-/// Restores the head; nullopt if the bytes are not complete output of store_head() of this build.
+/// Restores the head; nullopt if the bytes are not complete output of store_head() of this build,
+/// or say something that no head has: an index behind its list, a number that is not finite.
 std::optional<head::Head> restore_head(std::string_view bytes);
 
 }  // namespace animeme::studio
