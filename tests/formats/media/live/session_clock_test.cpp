@@ -100,7 +100,7 @@ TEST(SessionClock, ClaimsAloneCostNothing) {
   Story fast;
   fast.push(info_of(), 0);
   for (int i = 0; i < 10000; ++i) fast.push(face(0.9 * i), 0.001 * i);
-  EXPECT_LT(fast.reached(), 0.25 * 10000 + 20) << "a quarter of a second a plane at most";
+  EXPECT_LT(fast.reached(), 10 + 6 + 10);
   // A single one elsewhere changes nothing.
   Story stray;
   stray.push(info_of(), 0);
@@ -111,6 +111,36 @@ TEST(SessionClock, ClaimsAloneCostNothing) {
   EXPECT_EQ(stray.face_times.size(), 50u);
   EXPECT_EQ(stray.clock.sessions(), 1);
   EXPECT_EQ(stray.clock.refused(), 2);
+}
+
+// Planes of 0.04 s that are 0.24 s apart leave gaps, however regular these are.
+TEST(SessionClock, SmallGapsAreBoundedByTimeAsLargeOnesAre) {
+  Story story;
+  story.push(info_of(), 0);
+  for (int i = 0; i < 80000; ++i) story.push(face(0.24 * i), 1e-4 * i);  // 5.3 hours in 8 s
+  EXPECT_LT(story.reached(), 8 + 6 + 8);
+  // In their own time they are what they always were: a head that is shown four times a second.
+  Story slow;
+  slow.push(info_of(), 0);
+  for (int i = 0; i < 80000; ++i) slow.push(face(0.24 * i), 0.24 * i);
+  EXPECT_EQ(slow.face_times.size(), 80000u);
+  EXPECT_EQ(slow.clock.refused(), 0);
+}
+
+// Nor is the length that units claim believed without end, nor that of many new senders.
+TEST(SessionClock, NothingRunsMoreThanAnHourAhead) {
+  for (const bool restarts : {false, true}) {
+    Story story;
+    story.push(info_of(), 0);
+    for (int i = 0; i < 100000; ++i) {
+      LiveUnit unit = face(0.24 * (restarts ? i % 7 : i));
+      unit.duration = kScale / 4;
+      if (restarts && i % 7 == 0) story.push(LiveRestart{}, 1e-4 * i);
+      story.push(unit, 1e-4 * i);
+    }
+    EXPECT_GT(story.reached(), 3500) << restarts;
+    EXPECT_LT(story.reached(), 3600 + 11) << restarts;
+  }
 }
 
 TEST(SessionClock, AClockThatJumpsGoesOnByArrival) {

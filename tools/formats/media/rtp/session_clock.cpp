@@ -10,14 +10,19 @@
 namespace animeme::media {
 namespace {
 
-// Units so far apart are data, not a gap: planes of four frames a second.
+// What a unit lasts is data, not a gap, up to planes of four frames a second. The next one may
+// begin as much later again, as stamps are rounded and cameras tremble.
 constexpr double kDataStep = 0.25;
+// Data may come faster than time passes, as of a file that is sent without pacing, but no further:
+// a tiny unit may claim to last long.
+constexpr double kMostLead = 3600;
 constexpr double kMostSpare = 5;  // beyond the arrival clock, which a net may disturb
 // A track that begins later may begin earlier in time: priming, what a server keeps for newcomers.
 constexpr double kBefore = 10;
 constexpr double kLate = 1;            // so far back a unit is late, not elsewhere
 constexpr double kApart = 1;           // units that confirm each other
 constexpr std::size_t kConfirmed = 3;  // units
+constexpr double kJumpsApart = 1;      // seconds of arrival
 constexpr double kLongestUnit = 10;    // duration
 constexpr double kCorrection = 10;     // of one track by reports of its sender
 constexpr double kCentury = 3e9;       // a time beyond is none
@@ -72,9 +77,13 @@ void SessionClock::begin(const Held& first) {
     spare_ = kMostSpare;
     spare_at_ = first.arrival;
   } else {
-    anchor_ = begun_ ? std::max(horizon(first.arrival), reached_ + kDataStep) : 0;
+    anchor_ = begun_ ? std::max(horizon(first.arrival), reached_) : 0;
   }
-  if (!begun_) reached_ = anchor_;
+  if (!begun_) {
+    reached_ = began_ = anchor_;
+    slack_ = 0;
+    began_at_ = first.arrival;
+  }
   anchor_at_ = first.arrival;
   const double shift = anchor_ == first.time ? 0 : anchor_ - first.time;
   for (Track& track : tracks_) track.shift = shift;
@@ -99,15 +108,17 @@ bool SessionClock::give(Held& held, std::deque<LiveEvent>& out) {
   if (track.last ? ticks <= *track.last : ours < anchor_ - kBefore) return false;
   spare_ = std::min(kMostSpare, spare_ + std::max(0.0, held.arrival - spare_at_));
   spare_at_ = std::max(spare_at_, held.arrival);
-  const double ahead = ours - std::max(horizon(held.arrival), reached_ + kDataStep);
+  if (ours - began_ > held.arrival - began_at_ + kMostLead) return false;
+  const double ahead = ours - std::max(horizon(held.arrival), reached_ + slack_);
   if (ahead > spare_) return false;
   spare_ -= std::max(0.0, ahead);
   track.last = ticks;
   track.last_arrival = held.arrival;
-  reached_ = std::max(reached_, ours);
   LiveUnit unit = std::move(held.unit);
   unit.time = ticks;
   const double duration = std::clamp(double(unit.duration) / from, 0.0, kLongestUnit);
+  slack_ = std::min(duration, kDataStep / 2);
+  reached_ = std::max(reached_, ours + std::min(duration, kDataStep));
   if (from != to || double(unit.duration) > kLongestUnit * from) {
     unit.duration = std::llround(duration * to);
   }
@@ -168,12 +179,19 @@ void SessionClock::believe(LiveTrack name, std::deque<LiveEvent>& out) {
   const double last = track.last ? double(*track.last) / rate(name, *given_) : by_other - 1;
   const bool fits = other.shift != track.shift && by_other > last &&
                     std::abs(by_other - horizon(first.arrival)) < kApart;
+  // Each jump claims a little: whoever jumps without end should not run ahead by that.
+  if (!fits && first.arrival < jumped_at_ + kJumpsApart) {
+    ++refused_;
+    track.candidates.erase(track.candidates.begin());
+    return;
+  }
   const double kept = other.shift;
   const bool other_goes_on = other.last && other.last_arrival >= first.arrival;
   if (fits) {
     track.shift = kept;
   } else {
     begin(first);
+    jumped_at_ = first.arrival;
     if (other_goes_on) other.shift = kept;
   }
   release(name, out);

@@ -7,8 +7,9 @@
 ///
 /// Timestamps of units are only claims, and filling gaps (text with every frame, silence) costs
 /// memory in proportion. So a gap is accepted as far as time has passed at the receiver, and a
-/// little further; units without gaps may arrive faster (a file sent without pacing). A jump in
-/// time must be confirmed by two more units that follow it. Then, or after a LiveRestart, time
+/// little further; units without gaps, each where the one before it ends, may arrive faster (a file
+/// sent without pacing), up to an hour ahead. A jump in time must be confirmed by two more units
+/// that follow it. Then, or after a LiveRestart, time
 /// continues by the arrival of packets, after what was already delivered. Times ascend in each
 /// track.
 ///
@@ -68,7 +69,10 @@ class SessionClock {
   LiveInfo sender_;                    // from the current sender
   Track tracks_[2];                    // by LiveTrack
   double anchor_ = 0, anchor_at_ = 0;  // our time, when
-  double reached_ = 0;                 // our time of the last unit of either track
+  double began_ = 0, began_at_ = 0;    // the first anchor
+  double jumped_at_ = -1e9;            // arrival of what was believed last
+  double reached_ = 0;                 // our time at which the last unit of either track ends
+  double slack_ = 0;                   // seconds that the next one may begin later
   double spare_ = 0;                   // seconds that gaps may be longer than time has passed
   double spare_at_ = 0;
   bool begun_ = false, restarting_ = false;
