@@ -72,7 +72,7 @@ std::string without_references(std::string_view text) {
   while (!text.empty()) {
     if (text[0] == '&') {
       constexpr std::size_t kLongestName = 10;
-      const std::size_t end = text.find(';');
+      const std::size_t end = text.substr(0, kLongestName + 1).find(';');
       const char32_t code =
           end <= kLongestName ? character_of(text.substr(1, end - 1)) : char32_t(0);
       if (code != 0) {

@@ -10,7 +10,8 @@
 namespace animeme::dam {
 namespace {
 
-constexpr double kTouching = 0.1;  // seconds between cues of captions that roll
+constexpr std::size_t kMostRolling = 16;  // lines that a cue shows again
+constexpr double kTouching = 0.1;         // seconds between cues of captions that roll
 
 std::string line_text(const CueLine& line) {
   std::string text;
@@ -25,7 +26,8 @@ bool is_timed(const CueLine& line) {
 // How many of the first lines of a cue the one before ended with.
 std::size_t repeated_lines(const Cue& before, const Cue& cue) {
   if (cue.start > before.end + kTouching) return 0;
-  for (std::size_t count = std::min(before.lines.size(), cue.lines.size()); count > 0; --count) {
+  const std::size_t most = std::min({before.lines.size(), cue.lines.size(), kMostRolling});
+  for (std::size_t count = most; count > 0; --count) {
     const std::size_t first = before.lines.size() - count;
     bool same = true;
     for (std::size_t i = 0; i < count && same; ++i) {

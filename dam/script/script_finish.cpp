@@ -224,7 +224,19 @@ void note_odd_bytes(std::vector<ScriptNote>& notes, const OddBytes& odd) {
   if (odd.count > 0) notes.push_back({NoteKind::odd_bytes, odd.describe(), 1, odd.line});
 }
 
+Result<void> check_size(std::size_t bytes, std::int64_t line) {
+  if (bytes <= kMostOfLabel) return {};
+  return error_at_line(Code::out_of_range,
+                       "one cue with more than " + std::to_string(kMostOfLabel) +
+                           " bytes of text, which nobody says in its time; split it into phrases",
+                       line);
+}
+
 Result<void> finish_labels(Timings& timings, const ScriptOptions& options, TimeUnit unit) {
+  for (const TimedLabel& label : timings.labels) {
+    const std::size_t size = std::max(label.label.size(), label.word.size());
+    if (auto fits = check_size(size, label.line); !fits) return fits;
+  }
   if (auto kept = keep_speaker(timings.labels, options.speaker); !kept) return kept.error();
   if (options.rate > 0 && unit == TimeUnit::assumed) {
     for (TimedLabel& label : timings.labels) {

@@ -26,10 +26,17 @@ enum class TimeUnit : std::uint8_t {
   known,    ///< its header, its syntax or its names say the unit
 };
 
+/// Most of one label, in bytes: an hour of speech.
+inline constexpr std::size_t kMostOfLabel = 100'000;
+
+/// Error: out_of_range (more than kMostOfLabel), at the line.
+Result<void> check_size(std::size_t bytes, std::int64_t line);
+
 /// Keeps the speaker of the options, takes marks for silence, leaves out labels that take no time,
 /// sorts words and ends them where the next begin, divides times of an assumed unit by the rate of
 /// the options or finds that they are milliseconds.
-/// Error: not_found (no such speaker; the message names those of the file).
+/// Errors: out_of_range (a label of more than kMostOfLabel), not_found (no such speaker; the
+/// message names those of the file).
 Result<void> finish_labels(Timings& timings, const ScriptOptions& options, TimeUnit unit);
 
 }  // namespace animeme::dam

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "dam/script/script_cues_internal.h"
+#include "dam/script/script_finish_internal.h"
 #include "dam/script/script_readers_internal.h"
 #include "dam/script/script_values_internal.h"
 #include "dam/script/table_text_internal.h"
@@ -10,10 +11,14 @@
 namespace animeme::dam {
 namespace {
 
+constexpr std::size_t kLongestBracket = 1000;
+constexpr std::size_t kMostRepeats = 100;  // of a line of the greatest length
+
 // What is between the brackets that a text begins with; nothing if it begins otherwise.
 std::optional<std::string_view> take_brackets(std::string_view& text, char open, char close) {
-  const std::size_t end = text.find(close);
-  if (!text.starts_with(open) || end == std::string_view::npos) return std::nullopt;
+  if (!text.starts_with(open)) return std::nullopt;
+  const std::size_t end = text.substr(0, kLongestBracket).find(close);
+  if (end == std::string_view::npos) return std::nullopt;
   const std::string_view inside = text.substr(1, end - 1);
   text.remove_prefix(end + 1);
   return inside;
@@ -142,6 +147,9 @@ Result<Timings> read_lrc(std::string_view text, const ScriptOptions& options) {
       }
     }
     if (!std::isfinite(offset)) offset = 0;
+    if (auto fits = check_size(starts.size() * rest.size() / kMostRepeats, line.number); !fits) {
+      return fits.error();
+    }
     for (const double start : starts) {
       // A line that is sung again has its words' times once.
       const bool again = start != starts[0];

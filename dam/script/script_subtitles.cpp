@@ -6,18 +6,22 @@
 #include <utility>
 
 #include "dam/script/script_cues_internal.h"
+#include "dam/script/script_finish_internal.h"
 #include "dam/script/script_readers_internal.h"
 #include "dam/script/script_values_internal.h"
 
 namespace animeme::dam {
 namespace {
 
+constexpr std::size_t kLongestTag = 1000;
+constexpr std::size_t kMostTags = 8;  // times as long as what is said: a time for each syllable
 constexpr std::string_view kArrow = "-->", kSubtitlesHeader = "WEBVTT";
 
 // The text of a cue while it is read.
 struct CueText {
   Cue cue;
   std::vector<Line> lines;
+  std::size_t bytes = 0;
 };
 
 Result<double> clock_at(std::string_view text, const Line& line, std::string_view what) {
@@ -79,11 +83,16 @@ Result<std::vector<CueText>> read_cues(std::string_view text) {
     if (const auto cue = times_of(line)) {
       if (!*cue) return cue->error();
       if (inside) drop_number(cues.back().lines);
-      cues.push_back({**cue, {}});
+      cues.push_back({**cue, {}, 0});
       inside = true;
     } else if (inside && line.text.empty() && (strict || !cues.back().lines.empty())) {
       inside = false;
     } else if (inside) {
+      // Before its lines are taken apart, which takes many times as much memory.
+      cues.back().bytes += line.text.size() + 1;
+      if (auto fits = check_size(cues.back().bytes / kMostTags, cues.back().cue.line); !fits) {
+        return fits.error();
+      }
       cues.back().lines.push_back(line);
     }
   }
@@ -121,10 +130,13 @@ CueLine pieces_of(const Line& line, Style& style) {
     pieces.back().text += without_references(without_places(text));
   };
   while (!rest.empty()) {
-    const std::size_t open = rest.find('<'), close = rest.find('>', std::min(open, rest.size()));
-    if (open == std::string_view::npos || close == std::string_view::npos) break;
-    const std::string_view inside = rest.substr(open + 1, close - open - 1);
-    if (!is_tag(inside)) {
+    const std::size_t open = rest.find('<');
+    if (open == std::string_view::npos) break;
+    const std::size_t length = rest.substr(open + 1, kLongestTag).find('>');
+    const bool closed = length != std::string_view::npos;
+    const std::string_view inside = rest.substr(open + 1, closed ? length : 0);
+    const std::size_t close = open + 1 + inside.size();
+    if (!closed || !is_tag(inside)) {
       add(rest.substr(0, open + 1));
       rest.remove_prefix(open + 1);
       continue;

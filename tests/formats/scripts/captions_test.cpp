@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
 
 #include "dam/script/script.h"
 #include "tools/formats/scripts/script_text.h"
@@ -125,6 +128,43 @@ TEST(Captions, OfSubViewer) {
   EXPECT_EQ(
       read("0:00:01.000,0:00:02.200\nBob my puppy\n\n0:00:03.000,0:00:04.200\nPam, my kitten\n"),
       "Bob my puppy 1000-2200 | Pam, my kitten 3000-4200");
+}
+
+// Nobody says 10 MB in a cue. It is refused where it stands, in any format.
+TEST(Captions, ACueHoldsWhatSomebodyCanSay) {
+  const auto with = [](std::size_t bytes) {
+    std::string text;
+    while (text.size() + 6 <= bytes) text += "hello ";
+    return text + "end";
+  };
+  const auto files = [](const std::string& text) {
+    return std::vector<std::string>{
+        "1\n00:00:00,000 --> 00:00:05,000\n" + text + "\n",
+        "WEBVTT\n\n00:00.000 --> 00:05.000\n" + text + "\n",
+        "0:00:00.000,0:00:05.000\n" + text + "\n",
+        R"([{"start": 0, "end": 5, "word": ")" + text + "\"}]",
+        "<tt xmlns=\"http://www.w3.org/ns/ttml\"><body><div><p begin=\"0s\" end=\"5s\">" + text +
+            "</p></div></body></tt>",
+        "[00:00.00]" + text + "\n[00:05.00]\n",
+    };
+  };
+  for (const std::string& file : files(with(90'000))) {
+    EXPECT_TRUE(read_labels(file, {})) << file.substr(0, 60);
+  }
+  for (const std::string& file : files(with(1'000'000))) {
+    const auto read = read_labels(file, {});
+    ASSERT_FALSE(read) << file.substr(0, 60);
+    EXPECT_EQ(read.error().code, Code::out_of_range) << read.error().describe();
+    EXPECT_THAT(read.error().describe(), HasSubstr("split it into phrases"));
+  }
+  // Times between the syllables are no text.
+  std::string timed = "WEBVTT\n\n00:00.000 --> 60:00.000\n";
+  for (int i = 0; i < 3000; ++i) {
+    char tag[32];
+    std::snprintf(tag, sizeof tag, "<%02d:%02d.000>", i / 60, i % 60);
+    timed += tag + std::string("<c> word</c>");
+  }
+  EXPECT_TRUE(read_labels(timed + "\n", {}));
 }
 
 }  // namespace captions_test

@@ -11,6 +11,8 @@
 namespace animeme::voice {
 namespace {
 
+constexpr std::size_t kMostWords = std::size_t(1) << 20;  // bytes; 16 hours of speech
+
 using Known = std::map<std::string, Labels>;
 
 // The words of a label. Chinese and Japanese labels are words already.
@@ -91,6 +93,16 @@ void add_phones(const dam::TimedLabel& label, const std::vector<text::Token>& to
 
 Result<dam::Timings> words_to_phones(const dam::Timings& timings, const AlignOptions& options,
                                      std::vector<std::string>& warnings) {
+  std::size_t bytes = 0;
+  for (const dam::TimedLabel& label : timings.labels) {
+    bytes += label.is_word ? label.label.size() : 0;
+    if (bytes > kMostWords) {
+      return error_at_line(Code::out_of_range,
+                           "more than 1 MB of words whose phones are to be estimated; split the "
+                           "script",
+                           label.line, label.column);
+    }
+  }
   const auto known = pronounce_all(timings, options, warnings);
   if (!known) return known.error();
   dam::Timings out{timings.format, timings.alphabet, {}};

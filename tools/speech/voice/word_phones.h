@@ -18,7 +18,7 @@ namespace animeme::voice {
 /// pronunciation ("-") becomes silence, with a warning.
 ///
 /// Errors: those of pronounce() and of align() about pronunciations; syntax, with its place (a word
-/// that does not end after its start).
+/// that does not end after its start); out_of_range (more than 1 MB of words).
 Result<dam::Timings> words_to_phones(const dam::Timings& timings, const AlignOptions& options,
                                      std::vector<std::string>& warnings);
 
