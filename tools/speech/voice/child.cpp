@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 
 #include "tools/formats/files/cost.h"
@@ -49,8 +50,11 @@ void be_silent() {
                                const std::function<bool(Sender&)>& work) {
   ::signal(SIGALRM, SIG_DFL);
   ::signal(SIGPIPE, SIG_DFL);
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody is left to hear it
   ::alarm(seconds);
   be_silent();
+  // Libraries call exit(), where what the parent has registered would be done a second time.
+  std::atexit([] { ::_exit(1); });
   Sender sender(descriptor);
   const bool good = work(sender) && sender.send(kDone, {});
   ::_exit(good ? 0 : 1);

@@ -264,32 +264,78 @@ void keep_voices() {
 
 namespace {
 
-// `ended`: the process of the voice has ended before the text, though nothing was wrong with it.
-Result<EspeakResult> try_espeak(const EspeakJob& job, bool& ended) {
-  EspeakResult result;
-  std::string failure;
-  std::size_t total = 0, events = 0;
-  bool too_long = false;
-  result.speech.emplace_back();
-  const auto receive = [&](std::uint32_t tag, std::string bytes) {
+// Sound beyond this is counted before it is kept: an hour of it takes 160 MB, which a text that is
+// too long should not take only to be refused.
+constexpr std::int64_t kSecondsAtOnce = 600;
+
+struct SpeechSize {
+  std::size_t samples = 0, events = 0;
+};
+
+// What comes from a child, text by text.
+class SpeechIntake {
+ public:
+  // `known`: the sizes of the texts, or nothing.
+  SpeechIntake(const EspeakJob& job, std::vector<SpeechSize> known)
+      : job_(job), known_(std::move(known)) {
+    begin_text();
+  }
+
+  bool receive(std::uint32_t tag, std::string bytes) {
     if (tag == kFailure) failure = std::move(bytes);
     if (tag == kSampleRate && bytes.size() == sizeof(std::int32_t)) {
       std::memcpy(&result.sample_rate, bytes.data(), bytes.size());
     }
-    if (tag == kTextEnd) result.speech.emplace_back();
-    if (tag == kSamples) {
-      append_samples(result.speech.back().samples, bytes);
-      total += bytes.size() / sizeof(std::int16_t);
+    if (tag == kTextEnd) begin_text();
+    if (tag == kSamples) take_samples(bytes);
+    if (tag == kEvents && bytes.size() == sizeof(WireEvent)) take_event(bytes);
+    const std::int64_t rate = std::max(result.sample_rate, 1);
+    too_long = total_.samples > std::size_t(job_.max_seconds * rate) ||
+               total_.events > std::size_t(kMostEventsPerSecond * (job_.max_seconds + 1));
+    if (!counting && known_.empty() && total_.samples > std::size_t(kSecondsAtOnce * rate)) {
+      counting = true;
+      for (RawSpeech& speech : result.speech) speech = {};
     }
-    if (tag == kEvents && bytes.size() == sizeof(WireEvent)) {
-      WireEvent wire;
-      std::memcpy(&wire, bytes.data(), sizeof wire);
-      result.speech.back().events.push_back(unpack(wire));
-      ++events;
-    }
-    too_long = std::int64_t(total) > job.max_seconds * std::max(result.sample_rate, 1) ||
-               std::int64_t(events) > kMostEventsPerSecond * (job.max_seconds + 1);
     return !too_long;
+  }
+
+  EspeakResult result;
+  std::vector<SpeechSize> sizes;  // of each text
+  std::string failure;
+  bool too_long = false;
+  bool counting = false;  // nothing was kept
+
+ private:
+  void begin_text() {
+    RawSpeech& speech = result.speech.emplace_back();
+    if (sizes.size() < known_.size()) {
+      speech.samples.reserve(known_[sizes.size()].samples);
+      speech.events.reserve(known_[sizes.size()].events);
+    }
+    sizes.emplace_back();
+  }
+  void take_samples(const std::string& bytes) {
+    if (!counting) append_samples(result.speech.back().samples, bytes);
+    sizes.back().samples += bytes.size() / sizeof(std::int16_t);
+    total_.samples += bytes.size() / sizeof(std::int16_t);
+  }
+  void take_event(const std::string& bytes) {
+    WireEvent wire;
+    std::memcpy(&wire, bytes.data(), sizeof wire);
+    if (!counting) result.speech.back().events.push_back(unpack(wire));
+    ++sizes.back().events;
+    ++total_.events;
+  }
+
+  const EspeakJob& job_;
+  std::vector<SpeechSize> known_;
+  SpeechSize total_;
+};
+
+// `ended`: the process of the voice has ended before the text, though nothing was wrong with it.
+Result<void> run_job(const EspeakJob& job, SpeechIntake& hearing, bool& ended) {
+  const auto receive = [&hearing](std::uint32_t tag, std::string bytes) {
+    return hearing.receive(tag, std::move(bytes));
   };
   const auto speak = [&job](Sender& sender) {
     prepare(job.options.data_path, job.voice);
@@ -299,16 +345,29 @@ Result<EspeakResult> try_espeak(const EspeakJob& job, bool& ended) {
   const auto run = kept != nullptr ? kept->run("espeak-ng", request_of(job), receive)
                                    : run_child("espeak-ng", kMostSecondsOfWork, speak, receive);
   if (!run && kept != nullptr) forget_kept(kept);
-  if (too_long) {
+  if (hearing.too_long) {
     return make_error(Code::out_of_range, "the text makes more than " +
                                               std::to_string(job.max_seconds) +
                                               " s of speech; speak it in parts");
   }
-  if (!failure.empty()) return make_error(Code::io, failure);
+  if (!hearing.failure.empty()) return make_error(Code::io, hearing.failure);
   ended = !run;
   if (!run) return run.error();
-  result.speech.pop_back();  // opened by the last kTextEnd
-  return result;
+  hearing.result.speech.pop_back();  // opened by the last kTextEnd
+  return {};
+}
+
+Result<EspeakResult> try_espeak(const EspeakJob& job, bool& ended) {
+  std::vector<SpeechSize> sizes;
+  {
+    SpeechIntake hearing(job, {});
+    if (auto ran = run_job(job, hearing, ended); !ran) return ran.error();
+    if (!hearing.counting) return std::move(hearing.result);
+    sizes = std::move(hearing.sizes);
+  }
+  SpeechIntake again(job, std::move(sizes));
+  if (auto ran = run_job(job, again, ended); !ran) return ran.error();
+  return std::move(again.result);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "dam/script/phones.h"
 #include "dam/script/script_text_internal.h"
+#include "tools/speech/voice/guarded.h"
 #include "tools/speech/voice/place_words.h"
 #include "tools/speech/voice/wrong_texts.h"
 
@@ -110,27 +111,13 @@ void move_to(const SpeechPart& part, std::vector<Segment>& segments) {
   if (segments.back().label != dam::kSilence) segments.push_back(silence(last));
 }
 
-}  // namespace
+constexpr std::string_view kAlignLibrary = "pocketsphinx";
+constexpr unsigned kMostAlignSeconds = 4 * 3600;  // of work; an hour of speech takes minutes
 
-Result<void> check_recogniser(const AlignOptions& options) {
-  const auto reader = CepstraReader::open(options.model_path);
-  if (!reader) return reader.error();
-  for (const char* file : {"mdef", "means", "variances", "sendump", "transition_matrices"}) {
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(std::filesystem::path(options.model_path) / file,
-                                          ignored)) {
-      return make_error(Code::not_found, "no acoustic model at " + options.model_path + " (" +
-                                             file +
-                                             " is missing); install the Debian package "
-                                             "pocketsphinx-en-us or set the path");
-    }
-  }
-  return {};
-}
-
-Result<std::vector<double>> explained_by_wrong_texts(const SpeechPart& part,
-                                                     const std::vector<SpokenWord>& words,
-                                                     const AlignOptions& options) {
+// In the child.
+Result<std::vector<double>> explained_here(const SpeechPart& part,
+                                           const std::vector<SpokenWord>& words,
+                                           const AlignOptions& options) {
   const auto model = read_sound_model(options.model_path);
   if (!model) return model.error();
   const auto reader = CepstraReader::open(options.model_path);
@@ -146,8 +133,8 @@ Result<std::vector<double>> explained_by_wrong_texts(const SpeechPart& part,
   return explained;
 }
 
-Result<Recognised> recognise(const SpeechPart& part, const std::vector<SpokenWord>& words,
-                             const AlignOptions& options) {
+Result<Recognised> recognise_here(const SpeechPart& part, const std::vector<SpokenWord>& words,
+                                  const AlignOptions& options) {
   const auto model = read_sound_model(options.model_path);
   if (!model) return model.error();
   const auto reader = CepstraReader::open(options.model_path);
@@ -159,6 +146,87 @@ Result<Recognised> recognise(const SpeechPart& part, const std::vector<SpokenWor
   for (const PlacedPart& one : placed.parts) append(*model, one, models, result.segments);
   move_to(part, result.segments);
   return result;
+}
+
+std::string pack(const Recognised& recognised) {
+  Packed out;
+  out.put(recognised.explained);
+  out.put(recognised.segments.size());
+  for (const Segment& segment : recognised.segments) {
+    out.put(segment.start);
+    out.put_text(segment.label);
+    out.put(segment.word);
+    out.put(segment.score);
+    out.put(segment.frames);
+    out.put(segment.foreign);
+  }
+  return out.take();
+}
+
+Recognised unpack_recognised(std::string_view bytes) {
+  constexpr std::size_t kSegmentBytes = 2 * sizeof(double) + 3 * sizeof(std::size_t) + 1;
+  Unpacked in(bytes);
+  Recognised recognised;
+  recognised.explained = in.get<double>();
+  recognised.segments.resize(in.get_count(kSegmentBytes));
+  for (Segment& segment : recognised.segments) {
+    segment.start = in.get<double>();
+    segment.label = in.get_text();
+    segment.word = in.get<std::size_t>();
+    segment.score = in.get<double>();
+    segment.frames = in.get<std::size_t>();
+    segment.foreign = in.get<bool>();
+  }
+  return recognised;
+}
+
+}  // namespace
+
+Result<void> check_recogniser(const AlignOptions& options) {
+  // In no folder, where nothing is opened: is there a recogniser at all?
+  const auto reader = CepstraReader::open("/dev/null");
+  if (!reader && reader.error().code != Code::not_found) return reader.error();
+  for (const char* file :
+       {"feat.params", "mdef", "means", "variances", "sendump", "transition_matrices"}) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(std::filesystem::path(options.model_path) / file,
+                                          ignored)) {
+      return make_error(Code::not_found, "no acoustic model at " + options.model_path + " (" +
+                                             file +
+                                             " is missing); install the Debian package "
+                                             "pocketsphinx-en-us or set the path");
+    }
+  }
+  return {};
+}
+
+Result<std::vector<double>> explained_by_wrong_texts(const SpeechPart& part,
+                                                     const std::vector<SpokenWord>& words,
+                                                     const AlignOptions& options) {
+  const auto bytes = run_guarded(kAlignLibrary, kMostAlignSeconds, [&]() -> Result<std::string> {
+    const auto explained = explained_here(part, words, options);
+    if (!explained) return explained.error();
+    Packed out;
+    out.put(explained->size());
+    for (const double one : *explained) out.put(one);
+    return out.take();
+  });
+  if (!bytes) return bytes.error();
+  Unpacked in(*bytes);
+  std::vector<double> explained(in.get_count(sizeof(double)));
+  for (double& one : explained) one = in.get<double>();
+  return explained;
+}
+
+Result<Recognised> recognise(const SpeechPart& part, const std::vector<SpokenWord>& words,
+                             const AlignOptions& options) {
+  const auto bytes = run_guarded(kAlignLibrary, kMostAlignSeconds, [&]() -> Result<std::string> {
+    const auto recognised = recognise_here(part, words, options);
+    if (!recognised) return recognised.error();
+    return pack(*recognised);
+  });
+  if (!bytes) return bytes.error();
+  return unpack_recognised(*bytes);
 }
 
 }  // namespace animeme::voice

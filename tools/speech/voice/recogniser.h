@@ -1,5 +1,6 @@
 /// @file
-/// The search of the recogniser. Internal.
+/// The search of the recogniser, in a child process: the library ends its process where memory is
+/// short. Internal.
 #pragma once
 
 #include <cstddef>
@@ -35,7 +36,8 @@ struct Recognised {
   double explained = 0;           ///< Placement::explained
 };
 
-/// Places the words in speech; times are those of the recording. Errors as check_recogniser().
+/// Places the words in speech; times are those of the recording. Errors as check_recogniser(), and
+/// those of run_guarded().
 Result<Recognised> recognise(const SpeechPart& part, const std::vector<SpokenWord>& words,
                              const AlignOptions& options);
 
