@@ -1,6 +1,7 @@
 #include "tools/app/commands/interrupt.h"
 
 #include <signal.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <csignal>
@@ -12,33 +13,45 @@ namespace animeme::tools {
 namespace {
 
 std::atomic<int> noted = 0;  // the signal
+std::atomic<unsigned> grace_seconds = 0;
 int living = 0;
-struct sigaction old_interrupt, old_terminate, old_pipe;
+struct sigaction old_interrupt, old_terminate, old_pipe, old_alarm;
 
-// The second one does what it always does.
-void note(int signal_number) {
-  if (noted.exchange(signal_number) == 0) return;
+void end_by(int signal_number) {
   remove_unfinished();
   ::signal(signal_number, SIG_DFL);
   ::raise(signal_number);
 }
 
+// The second one does what it always does.
+void note(int signal_number) {
+  if (noted.exchange(signal_number) != 0) return end_by(signal_number);
+  if (grace_seconds > 0) ::alarm(grace_seconds);
+}
+
+void end_of_grace(int) { end_by(noted != 0 ? int(noted) : SIGTERM); }
+
 }  // namespace
 
-Interrupt::Interrupt() {
+Interrupt::Interrupt(unsigned grace) {
   if (living++ > 0) return;
   noted = 0;
+  grace_seconds = grace;
   struct sigaction action = {};
   action.sa_handler = note;
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, &old_interrupt);
   sigaction(SIGTERM, &action, &old_terminate);
+  action.sa_handler = end_of_grace;
+  sigaction(SIGALRM, &action, &old_alarm);
   action.sa_handler = SIG_IGN;
   sigaction(SIGPIPE, &action, &old_pipe);
 }
 
 Interrupt::~Interrupt() {
   if (--living > 0) return;
+  if (grace_seconds > 0) ::alarm(0);
+  sigaction(SIGALRM, &old_alarm, nullptr);
   sigaction(SIGINT, &old_interrupt, nullptr);
   sigaction(SIGTERM, &old_terminate, nullptr);
   sigaction(SIGPIPE, &old_pipe, nullptr);

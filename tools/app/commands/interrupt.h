@@ -9,12 +9,14 @@
 namespace animeme::tools {
 
 /// While one lives, the first SIGINT or SIGTERM is only noted, so that the work can be brought to
-/// a clean end; the second one ends the program at once. SIGPIPE is ignored, so that a reader that
-/// goes away is an error of writing. What was set before comes back with the last of them.
-/// For the main thread.
+/// a clean end; the second one ends the program at once, and so does a grace that is over: a wait
+/// that nothing else ends, such as for a reader of a full pipe, ends then. SIGPIPE is ignored, so
+/// that a reader that goes away is an error of writing. What was set before comes back with the
+/// last of them. For the main thread.
 class Interrupt {
  public:
-  Interrupt();
+  /// `grace`: seconds from the first signal to the end of the program; 0: no limit.
+  explicit Interrupt(unsigned grace = 0);
   ~Interrupt();
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
@@ -24,5 +26,8 @@ class Interrupt {
   /// Was it SIGTERM, by which service managers end programs? Likewise.
   static bool terminated();
 };
+
+/// Grace of programs that run until they are told to end.
+inline constexpr unsigned kLiveGrace = 10;
 
 }  // namespace animeme::tools

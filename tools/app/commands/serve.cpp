@@ -232,7 +232,7 @@ Result<int> run(ServeOptions& options) {
   if (!options.log.empty()) {
     wanted.log = [json = options.log == "json"](const Json& entry) { write_log(entry, json); };
   }
-  const Interrupt interrupt;
+  const Interrupt interrupt(kLiveGrace);
   auto server = serve::HeadServer::open(wanted, heads);
   if (!server && server.error().code == Code::invalid_argument) {
     return usage_error(server.error().message);

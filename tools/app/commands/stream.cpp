@@ -222,7 +222,7 @@ Result<int> send(const StreamOptions& options, live::Program& program, live::Sin
   media::LiveInput& input = program.input();
   media::JumpingClock jumping;
   media::Clock& clock = options.fast ? static_cast<media::Clock&>(jumping) : media::steady_clock();
-  const Interrupt interrupt;
+  const Interrupt interrupt(kLiveGrace);
   if (auto ok = sinks.start(input.info()); !ok) return ok.error();
   for (const live::Address& address : sinks.addresses()) say("sending to " + address.url);
   // Priming is due before time 0.
