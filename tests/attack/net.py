@@ -107,7 +107,7 @@ def attack_receiver(program, seconds, rng, mutate):
 
 def attack_server(program, seconds, rng):
     port = free_port(socket.SOCK_STREAM)
-    server = subprocess.Popen([program, "serve", "--listen", f"http://127.0.0.1:{port}", "--max-heads", "5"],
+    server = subprocess.Popen([program, "serve", "--listen", f"http://127.0.0.1:{port}", "--max-heads", "5", "--drain", "1"],
                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
 
     def ask(data, wait=5.0):

@@ -196,7 +196,7 @@ def viewer(case, port, path):
 
 def start_server(case, *more, **how):
     port = free_port(socket.SOCK_STREAM)
-    case.start(["serve", "--listen", f"http://127.0.0.1:{port}", *more], **how)
+    case.start(["serve", "--listen", f"http://127.0.0.1:{port}", "--drain", "2", *more], **how)
     return port
 
 

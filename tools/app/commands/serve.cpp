@@ -1,6 +1,7 @@
 // Many talking heads in one process, on one port.
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -232,7 +233,7 @@ Result<int> run(ServeOptions& options) {
   if (!options.log.empty()) {
     wanted.log = [json = options.log == "json"](const Json& entry) { write_log(entry, json); };
   }
-  const Interrupt interrupt(kLiveGrace);
+  const Interrupt interrupt(kLiveGrace + unsigned(std::ceil(options.drain)));
   auto server = serve::HeadServer::open(wanted, heads);
   if (!server && server.error().code == Code::invalid_argument) {
     return usage_error(server.error().message);
