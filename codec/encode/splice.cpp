@@ -143,6 +143,7 @@ struct Splicer::Impl {
   Source source;
   State state = State::all;
   bool cut = false;       // the time codes of the sources are wrong
+  bool avoid = false;     // intra planes that are not needed
   Shown out;              // what receivers have
   fap::Rate rate{30, 1};  // likewise
   FaceSettings face;      // of the intra plane in force
@@ -211,6 +212,21 @@ struct Splicer::Impl {
     return known && stale(*settings).none();
   }
 
+  // Whether a predictive plane does what this intra plane of the source does, if its ranges hold.
+  bool continues(const Plane& plane) const {
+    return avoid && state != State::nothing && plane.rate == rate && !plane.temporal.time_code &&
+           continues(plane.face_settings, source.face.settings, face) &&
+           continues(plane.body_settings, source.body.settings, body);
+  }
+  template <class Settings>
+  bool continues(const std::shared_ptr<const Settings>& next,
+                 const std::optional<Settings>& in_source, const Settings& in_force) const {
+    if (!in_source || !next) return !in_source;
+    return quant_of(*next) == quant_of(in_force) && next->mask == in_force.mask &&
+           next->mask_type == in_force.mask_type && next->male == in_force.male &&
+           stale(*next).none();
+  }
+
   Result<void> copy(const Plane& plane, std::optional<std::uint32_t> skip) {
     if (!plane.intra && ((has_face(plane.object_mask) && !source.face.settings) ||
                          (has_body(plane.object_mask) && !source.body.settings))) {
@@ -231,13 +247,14 @@ struct Splicer::Impl {
       source.face.begin(FaceSettings());
       state = State::nothing;
     }
-    const bool as_it_is =
-        (state == State::all && !may_get_lost(plane)) || (plane.intra && is_complete(plane));
+    const bool avoided = plane.intra && continues(plane);
+    const bool as_it_is = !avoided && ((state == State::all && !may_get_lost(plane)) ||
+                                       (plane.intra && is_complete(plane)));
     if (as_it_is) {
       if (auto ok = put(verbatim(plane, skip)); !ok) return ok;
       state = State::all;
     } else {
-      const bool follows = state != State::nothing && !plane.intra;
+      const bool follows = state != State::nothing && (!plane.intra || avoided);
       if (!follows || !write_predictive(plane, skip)) {
         if (auto ok = write_intra(plane, skip); !ok) return ok;
       }
@@ -400,6 +417,16 @@ void Splicer::pass(const Plane& plane) {
 void Splicer::refresh() {
   impl_->state = Impl::State::nothing;
   impl_->out = {};
+}
+
+void Splicer::avoid_intra() { impl_->avoid = true; }
+
+Splicer Splicer::fork() const {
+  Splicer fork(impl_->options);
+  fork.impl_->source = impl_->source;
+  fork.impl_->avoid = impl_->avoid;
+  fork.impl_->part();
+  return fork;
 }
 
 Result<void> Splicer::copy(const Plane& plane) { return impl_->copy(plane, plane.temporal.skip); }

@@ -74,6 +74,13 @@ class Splicer {
   /// have received nothing before it, too. The planes behind it are coded again, as behind a cut.
   void refresh();
 
+  /// From now on an intra plane of the source that changes nothing but ranges is coded as a
+  /// predictive one where the ranges in force suffice, for receivers that lose nothing.
+  void avoid_intra();
+
+  /// A splicer that has seen the same planes of the source and has written none.
+  Splicer fork() const;
+
   /// Calls these for the next plane of a source of which the frames from `first` up to `end`, by
   /// Plane::number, are wanted: a plane that is shown within them is written, as long as it is.
   /// The first of them is held for `hold` more frames. False: no later plane is wanted.

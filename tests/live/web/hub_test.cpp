@@ -6,6 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "codec/decode/decoder.h"
+#include "codec/encode/live.h"
+#include "tests/support/random_clip.h"
 #include "tools/live/web/detail/messages.h"
 
 namespace animeme::test {
@@ -75,6 +78,94 @@ TEST(Hub, TheFaceHasAFlagForIt) {
   for (int i = 0; i < 4; ++i) hub.publish(Channel::face, unit(i == 0));
   hub.publish(Channel::face, unit(true));
   EXPECT_EQ(web::read_unit(hub.next(slow)->bytes)->flags, web::kIntra | web::kMissed);
+}
+
+// Messages of a face with an intra plane every six units.
+std::vector<Message> face_units(int count) {
+  fap::Sequence clip = random_clip(11, count);
+  fba::LiveOptions options;
+  options.rate = {25, 1};
+  options.intra_seconds = 6 / 25.0;
+  for (std::size_t i = 0; i < clip.frames.size(); ++i) {
+    fap::Frame& frame = clip.frames[i];
+    frame.mask = clip.frames[0].mask;
+    frame.value = clip.frames[i % 3].value;
+    frame.viseme = clip.frames[0].viseme;
+    frame.expression = clip.frames[0].expression;
+  }
+  options.ranges = fba::ranges_of(clip, 1);
+  fba::LiveEncoder encoder(options);
+  std::vector<Message> units;
+  for (const fap::Frame& frame : clip.frames) {
+    auto bytes = encoder.write(frame);
+    EXPECT_TRUE(bytes) << bytes.error().describe();
+    const std::uint8_t flags = encoder.intra() ? web::kIntra : 0;
+    units.push_back({.bytes = web::write_unit({units.size(), 1, flags, *bytes}),
+                     .entry = encoder.intra(),
+                     .time = double(units.size())});
+  }
+  return units;
+}
+
+// Takes all that waits: how many units are intra planes, and the last one, decoded.
+struct Taken {
+  int units = 0, intra = 0;
+  fba::Decoder decoder;
+  fap::Frame face;
+
+  void all(Hub& hub, web::ClientId client) {
+    while (const auto message = hub.next(client)) {
+      const auto unit = web::read_unit(message->bytes);
+      ASSERT_TRUE(unit);
+      ++units;
+      intra += unit->flags & web::kIntra;
+      decoder.push(unit->bytes);
+    }
+    fba::Decoder copy = decoder;
+    copy.finish();
+    for (auto event = copy.next(); event; event = copy.next()) {
+      if (event->kind == fba::Event::Kind::plane) face = event->plane.face;
+    }
+  }
+};
+
+TEST(Hub, EachClientOfTheFaceHasOneIntraPlane) {
+  Hub hub(100000, true);
+  const auto units = face_units(60);
+  const auto first = hub.add(Channel::face);
+  const auto as_sent = hub.add(Channel::sent);
+  for (int i = 0; i < 40; ++i) hub.publish(Channel::face, units[std::size_t(i)]);
+  const auto late = hub.add(Channel::face);
+  ASSERT_TRUE(hub.waiting(late)) << "it begins at once";
+  for (int i = 40; i < 60; ++i) hub.publish(Channel::face, units[std::size_t(i)]);
+  Taken of_first, of_sent, of_late;
+  of_first.all(hub, first);
+  of_sent.all(hub, as_sent);
+  of_late.all(hub, late);
+  EXPECT_EQ(of_first.units, 60);
+  EXPECT_LE(of_first.intra, 2) << "the ranges of the first may be too small";
+  EXPECT_EQ(of_sent.units, 60);
+  EXPECT_GE(of_sent.intra, 10);
+  EXPECT_EQ(of_late.units, 21);
+  EXPECT_EQ(of_late.intra, 1);
+  EXPECT_EQ(of_first.face.value, of_sent.face.value);
+  EXPECT_EQ(of_late.face.value, of_sent.face.value);
+}
+
+TEST(Hub, WhoLosesUnitsOfTheFaceBeginsAnewAtOnce) {
+  Hub hub(3000, true);
+  const auto units = face_units(200);
+  const auto slow = hub.add(Channel::face);
+  std::size_t i = 0;
+  while (hub.dropped() == 0 && i < units.size()) hub.publish(Channel::face, units[i++]);
+  ASSERT_LT(i, units.size());
+  ASSERT_FALSE(hub.waiting(slow));
+  hub.publish(Channel::face, units[i]);
+  const auto message = hub.next(slow);
+  ASSERT_NE(message, nullptr) << "whatever the source sends";
+  const auto unit = web::read_unit(message->bytes);
+  EXPECT_EQ(unit->flags, web::kIntra | web::kMissed);
+  EXPECT_EQ(unit->time, i);
 }
 
 TEST(Hub, ALongTimeWithoutAnIntraPlaneTakesNoMemory) {

@@ -51,7 +51,8 @@ TEST(Sdp, HasTheLinesOfTheStandards) {
   for (const char* line :
        {"m=video 5004 RTP/AVP 96\r\n", "c=IN IP4 192.0.2.7\r\n", "a=rtpmap:96 MP4V-ES/90000\r\n",
         "a=fmtp:96 profile-level-id=97; config=000001B061000001B58947\r\n",
-        "m=audio 5006 RTP/AVP 97\r\n", "a=rtpmap:97 mpeg4-generic/48000/1\r\n",
+        "a=rtcp-fb:96 nack pli\r\n", "a=rtcp-fb:96 ccm fir\r\n", "m=audio 5006 RTP/AVP 97\r\n",
+        "a=rtpmap:97 mpeg4-generic/48000/1\r\n",
         "a=fmtp:97 streamType=5; profile-level-id=41; mode=AAC-hbr; sizelength=13; indexlength=3; "
         "indexdeltalength=3; config=1188\r\n"}) {
     EXPECT_THAT(text, HasSubstr(line));

@@ -54,6 +54,9 @@ std::string face_lines(const RtpFaceTrack& face, const std::string& cname) {
   std::string parameters = "profile-level-id=" + std::to_string(int(face.visual_profile));
   if (!face.config.empty()) parameters += "; config=" + to_hex(face.config);
   std::string out = media_lines(face, "video", "MP4V-ES/90000", parameters);
+  // What the sender answers, with the next plane (RFC 4585, RFC 5104).
+  const std::string feedback = "rtcp-fb:" + std::to_string(face.payload_type);
+  out += attribute(feedback + " nack pli") + attribute(feedback + " ccm fir");
   out += clock_lines(face, cname);
   if (face.timescale != 0)
     out += attribute("x-animeme:timescale=" + std::to_string(face.timescale));

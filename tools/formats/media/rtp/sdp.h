@@ -1,11 +1,12 @@
 /// @file
 /// Session descriptions: addresses and formats of the packets of a presentation.
-/// Source: RFC 8866, 6416, 3640, 7587, 5576 (ssrc), 7273 (media clock), 8285 (extmap);
-/// tools/formats/media/containers.md, section 4.1.
+/// Source: RFC 8866, 6416, 3640, 7587, 4585 and 5104 (rtcp-fb), 5576 (ssrc), 7273 (media clock),
+/// 8285 (extmap); tools/formats/media/containers.md, section 4.1.
 ///
 ///     m=video 5004 RTP/AVP 96
 ///     a=rtpmap:96 MP4V-ES/90000
 ///     a=fmtp:96 profile-level-id=97; config=000001B061000001B58947
+///     a=rtcp-fb:96 nack pli              intra planes that receivers ask for, also by ccm fir
 ///     a=ssrc:305419896 cname:animeme
 ///     a=mediaclk:direct=2271560481       RTP time of time 0
 ///     a=x-animeme:timescale=25000        private; others ignore it

@@ -22,7 +22,8 @@ void Broadcast::publish(Channel channel, Message message) {
   {
     const std::lock_guard lock(mutex_);
     hub_.publish(channel, std::move(message));
-    if (clients_[std::size_t(channel)] == 0) return;
+    const int as_sent = channel == Channel::face ? clients_[std::size_t(Channel::sent)] : 0;
+    if (clients_[std::size_t(channel)] + as_sent == 0) return;
   }
   touched_(shared_from_this());
 }

@@ -18,7 +18,7 @@ constexpr std::size_t kPiece = 16384;           // of a body, at once
 constexpr std::size_t kMostFromClient = 65536;  // bytes; clients have nothing to say
 
 Channel channel_of(const Session& session) {
-  if (session.resource == Resource::face) return Channel::face;
+  if (session.resource == Resource::face) return session.as_sent ? Channel::sent : Channel::face;
   if (session.resource != Resource::faps) return Channel::audio;
   return session.small ? Channel::planes : Channel::faps;
 }
@@ -258,6 +258,7 @@ int Server::upgrade(lws* wsi) {
   session.resource = place.resource;
   session.broadcast = place.broadcast;
   session.small = request.asks("binary");
+  session.as_sent = request.asks("as-sent");
   return admit(wsi, session) ? 0 : refused(HTTP_STATUS_SERVICE_UNAVAILABLE);
 }
 

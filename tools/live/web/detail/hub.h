@@ -8,12 +8,16 @@
 #include <deque>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
+
+#include "codec/encode/fan_out.h"
 
 namespace animeme::web {
 
-enum class Channel : std::uint8_t { face, faps, planes, audio };  // planes: /faps?binary
-inline constexpr std::size_t kChannels = 4;
+// planes: /faps?binary; sent: /face?as-sent
+enum class Channel : std::uint8_t { face, faps, planes, audio, sent };
+inline constexpr std::size_t kChannels = 5;
 
 struct Message {
   std::vector<std::uint8_t> bytes;
@@ -32,8 +36,12 @@ class Hub {
   /// `client_bytes`, `catch_up`: as WebOptions.
   Hub(std::size_t client_bytes, bool catch_up) : client_bytes_(client_bytes), catch_up_(catch_up) {}
 
-  /// The first message of each new client of this channel.
+  /// The first message of each new client of this channel; that of the face is that of the units as
+  /// sent, too.
   void set_hello(Channel channel, Message hello);
+  /// Binary messages of the face are units (messages.h). Clients of the face get them coded for
+  /// themselves: an intra plane first, and no others but those that are needed (fan_out.h); those
+  /// of Channel::sent get them as they are. So does everybody where they cannot be decoded.
   void publish(Channel channel, Message message);
   /// Newcomers need nothing that lies in front of this time.
   void forget_before(Channel channel, double time);
@@ -69,12 +77,18 @@ class Hub {
   };
 
   void push(Client& client, const MessagePtr& message);
+  void push_coded(ClientId id, Client& client, const MessagePtr& message);
+  bool add_coded(ClientId id, Client& client);
+  void follow(const MessagePtr& message);
   void keep(Feed& feed, Channel channel, const MessagePtr& message);
 
   std::size_t client_bytes_;
   bool catch_up_;
   std::array<Feed, kChannels> feeds_;
   std::map<ClientId, Client> clients_;
+  std::optional<fba::FanOut> fan_out_;  // while there are clients of the face
+  // Of its newest unit, by the address of the bytes that FanOut gives: one for all that share them.
+  std::map<const std::uint8_t*, MessagePtr> coded_;
   ClientId last_id_ = 0;
   std::int64_t dropped_ = 0, messages_ = 0, bytes_ = 0;
 };

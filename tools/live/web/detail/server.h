@@ -44,6 +44,7 @@ struct Session {
   std::shared_ptr<Exchange> exchange;
   std::optional<ServerReply> reply;  // of it
   bool small = false;                // /faps?binary
+  bool as_sent = false;              // /face?as-sent
   bool open = false;                 // a WebSocket or /talk.mp4 with a place in the hub
   ClientId client = 0;
   DocumentPtr document;  // that is being sent
