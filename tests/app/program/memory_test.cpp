@@ -132,7 +132,12 @@ TEST(Memory, DoesNotGrowWithTheText) {
     expect_flat({"mux", stream, "-o", dir / ("face" + ending)}, kMostWithLibraries);
     expect_flat({"demux", dir / ("face" + ending), "-o", dir / "back.fba"}, kMostWithLibraries);
     expect_flat({"compare", stream, dir / "back.fba"}, kMost);
+    expect_flat(
+        {"edit", dir / ("face" + ending), "--at", "10-900,1000-2900", "-o", dir / ("cut" + ending)},
+        kMostWithLibraries);
   }
+  expect_flat({"edit", stream, stream, "--from", "10", "--offset", "-1", "-o", dir / "cut.fba"},
+              kMost);
 }
 
 }  // namespace memory_test

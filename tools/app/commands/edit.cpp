@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 #include "fap/rate_text.h"
@@ -15,6 +16,9 @@
 #include "tools/app/commands/report.h"
 #include "tools/formats/common/text.h"
 #include "tools/formats/files/cost.h"
+#include "tools/formats/files/files.h"
+#include "tools/formats/files/output_file.h"
+#include "tools/formats/programs/scratch_folder.h"
 
 namespace animeme::tools {
 
@@ -49,7 +53,10 @@ struct Plan {
   std::vector<EditCut> cuts;   // of sound and words
   std::vector<EditCut> shown;  // of the motion, moved by --offset
   fap::Rate rate;
+  double later = 0;  // seconds, less than a frame, by which the face begins behind the sound
 };
+
+constexpr double kSameTime = 0.0005;  // seconds
 
 Error invalid_option(const char* option, const Error& error) {
   return make_error(Code::invalid_argument, std::string(option) + ": " + error.message);
@@ -143,13 +150,30 @@ void move_to_intra_planes(Plan& plan) {
   }
 }
 
-// A later face is held at its beginning, an earlier one loses it.
-void move_face(Plan& plan, double offset) {
+bool writes_text(const std::string& extension) {
+  return extension == ".fap" || extension == ".txt" || extension == ".bap";
+}
+bool is_container(const std::string& path) {
+  const std::string extension = extension_of(path);
+  const std::string streams = std::string(" ") + kStreamEndings + " ";
+  return path != "-" && !extension.empty() && !writes_text(extension) &&
+         streams.find(" " + extension + " ") == std::string::npos;
+}
+
+// A later face is held at its beginning, an earlier one loses it. What is less than a frame is left
+// to the times of a container.
+void move_face(Plan& plan, double offset, bool container) {
   plan.shown = plan.cuts;
-  const std::int64_t frames = std::llround(offset * plan.rate.frames_per_second());
-  const double exact = plan.rate.seconds(double(frames));
-  if (std::abs(exact - offset) > 0.0005) {
-    say(format("--offset: %lld frames, %.3f s", static_cast<long long>(frames), exact));
+  const double rate = plan.rate.frames_per_second();
+  std::int64_t frames = std::llround(offset * rate);
+  if (container && std::abs(plan.rate.seconds(double(frames)) - offset) > kSameTime) {
+    frames = std::int64_t(std::floor(offset * rate));
+    plan.later = offset - plan.rate.seconds(double(frames));
+  }
+  const double exact = plan.rate.seconds(double(frames)) + plan.later;
+  if (std::abs(exact - offset) > kSameTime) {
+    say(format("--offset: %lld frames, %.3f s; containers move a face by less than a frame",
+               static_cast<long long>(frames), exact));
   }
   plan.changes.hold = std::max<std::int64_t>(frames, 0);
   std::int64_t rest = std::max<std::int64_t>(-frames, 0);
@@ -166,7 +190,7 @@ void move_face(Plan& plan, double offset) {
 Result<void> make_plan(EditSettings& options, Plan& plan) {
   plan.sources.reserve(options.inputs.size());
   for (const std::string& input : options.inputs) {
-    auto source = read_edit_source(input);
+    auto source = open_edit_source(input);
     if (!source) return source.error();
     plan.sources.push_back(std::move(*source));
   }
@@ -181,21 +205,11 @@ Result<void> make_plan(EditSettings& options, Plan& plan) {
     if (auto ok = add_cuts(plan, piece); !ok) return ok;
   }
   if (options.copy) move_to_intra_planes(plan);
-  move_face(plan, options.offset);
+  move_face(plan, options.offset, is_container(options.output));
   if (plan.shown.empty()) {
     return make_error(Code::invalid_argument, "--offset leaves nothing of the face");
   }
   return {};
-}
-
-bool writes_text(const std::string& extension) {
-  return extension == ".fap" || extension == ".txt" || extension == ".bap";
-}
-bool is_container(const std::string& path) {
-  const std::string extension = extension_of(path);
-  const std::string streams = std::string(" ") + kStreamEndings + " ";
-  return path != "-" && !extension.empty() && !writes_text(extension) &&
-         streams.find(" " + extension + " ") == std::string::npos;
 }
 
 std::string tell_planes(const fba::SpliceReport& report) {
@@ -217,7 +231,7 @@ Result<std::vector<std::uint8_t>> coded_again(const EditedMotion& motion,
   coding.bap_quant = options.stream.quant;
   if (is_container(options.output)) coding.intra_seconds = options.stream.intra_seconds;
   AtStep step(Step::coding);
-  return fba::encode(motion.face, coding, motion.body.frames);
+  return encode_face(motion.face, coding, motion.body.frames);
 }
 
 Result<int> write_text(const Plan& plan, const EditSettings& options) {
@@ -244,12 +258,41 @@ Result<int> write_text(const Plan& plan, const EditSettings& options) {
   return kOk;
 }
 
+// What was written in place of a stream that has to be read again.
+struct Scratch {
+  std::unique_ptr<ScratchFolder> folder;
+  std::string path;
+};
+
+Result<Scratch> make_scratch() {
+  auto folder = ScratchFolder::make();
+  if (!folder) return folder.error();
+  std::string path = (*folder)->file("edited.fba");
+  return Scratch{std::move(*folder), std::move(path)};
+}
+
+// `path`: of the coded face.
 Result<int> write_container(const Plan& plan, const EditSettings& options,
-                            const std::vector<std::uint8_t>& stream) {
-  const auto units = fba::split_access_units(stream);
-  if (!units) return units.error();
+                            const std::string& path) {
   media::MuxInput input;
-  input.face = &*units;
+  std::optional<fba::UnitReader> reader;
+  fba::AccessUnits units;
+  const std::int64_t later = std::llround(plan.later * 1e6);
+  if (later == 0) {
+    auto opened = open_units(path);
+    if (!opened) return opened.error();
+    reader = std::move(*opened);
+    input.face_units = &*reader;
+  } else {
+    const auto bytes = read_file(path);
+    if (!bytes) return bytes.error();
+    auto split = fba::split_access_units(*bytes);
+    if (!split) return split.error();
+    units = std::move(*split);
+    for (fba::AccessUnit& unit : units.units)
+      unit.time += std::llround(plan.later * units.timescale);
+    input.face = &units;
+  }
   media::MuxOptions mux;
   mux.audio = audio_settings(options.sound, options.output);
   mux.text_track = media::TextTrackType::metadata;
@@ -259,7 +302,7 @@ Result<int> write_container(const Plan& plan, const EditSettings& options,
     input.audio_file = &options.sound_file;
   } else if (!options.no_sound) {
     copied = options.sound.codec.empty() && options.sound.bit_rate == 0;
-    auto cut = cut_sound(plan.cuts, mux.audio, copied);
+    auto cut = cut_sound(plan.cuts, mux.audio, plan.changes.speed, copied);
     if (!cut) return cut.error();
     sound = std::move(*cut);
     if (sound) input.encoded = &*sound;
@@ -294,46 +337,55 @@ Result<int> run(EditSettings options) {
     return usage ? Result<int>(usage_error(ok.error().message)) : Result<int>(ok.error());
   }
   const bool container = is_container(options.output);
-  const bool sound =
-      std::ranges::any_of(plan.cuts, [](const EditCut& cut) { return cut.source->sound; });
-  if (options.speed != 1 && container && sound && options.sound_file.empty() && !options.no_sound) {
-    return usage_error(
-        format("--speed does not stretch sound: leave it out with --no-sound, or stretch it first "
-               "(ffmpeg -i %s -filter:a atempo=%g slow.wav) and name it with --sound",
-               plan.sources.front().path.c_str(), options.speed));
-  }
-  if (writes_text(extension_of(options.output))) return write_text(plan, options);
-  std::vector<std::uint8_t> stream;
-  std::string planes;
-  Json facts;
-  if (!plan.changes.any() && !options.quant_given && can_copy(plan.shown, plan.rate)) {
-    auto copied = copy_planes(plan.shown, plan.changes.hold, container);
-    if (!copied) return copied.error();
-    stream = std::move(copied->stream);
-    planes = tell_planes(copied->report);
-    facts = {{"planes", copied->report.planes},
-             {"recoded", copied->report.recoded},
-             {"changed", copied->report.changed}};
-  } else if (options.copy) {
+  const bool text = writes_text(extension_of(options.output));
+  const bool copying = !text && !plan.changes.any() && !options.quant_given &&
+                       !options.stream.default_ranges && can_copy(plan.shown, plan.rate);
+  if (options.copy && !copying && !text) {
     return make_error(Code::unsupported,
                       "only FBA streams of one frame rate can be copied; leave --copy out")
         .in_file(plan.sources.front().path);
+  }
+  for (EditSource& source : plan.sources) {
+    if (copying) break;
+    if (auto ok = load_motion(source); !ok) return ok.error();
+  }
+  if (text) return write_text(plan, options);
+  std::optional<Scratch> scratch;
+  if (container) {
+    auto made = make_scratch();
+    if (!made) return made.error();
+    scratch = std::move(*made);
+  }
+  OutputFile file(scratch ? scratch->path : options.output);
+  std::size_t bytes = 0;
+  const auto take = [&](std::span<const std::uint8_t> piece) {
+    bytes += piece.size();
+    return file.write(piece);
+  };
+  std::string planes;
+  Json facts;
+  if (copying) {
+    const auto report = copy_planes(plan.shown, plan.changes.hold, container, take);
+    if (!report) return report.error();
+    planes = tell_planes(*report);
+    facts = {
+        {"planes", report->planes}, {"recoded", report->recoded}, {"changed", report->changed}};
   } else {
     auto motion = change_motion(plan.shown, plan.rate, plan.changes);
     if (!motion) return motion.error();
-    auto coded = coded_again(*motion, options);
+    const auto coded = coded_again(*motion, options);
     if (!coded) return coded.error();
-    stream = std::move(*coded);
+    if (auto done = take(*coded); !done) return done.error();
     const std::size_t count = std::max(motion->face.frames.size(), motion->body.frames.size());
     planes = std::to_string(count) + " planes coded again";
     facts = {{"planes", count}, {"recoded", count}};
   }
+  if (auto done = file.publish(); !done) return done.error();
   if (container) {
     say(name_of_output(options.output) + ": " + planes);
-    return write_container(plan, options, stream);
+    return write_container(plan, options, scratch->path);
   }
-  if (auto written = write_file(options.output, stream); !written) return written.error();
-  facts["bytes"] = stream.size();
+  facts["bytes"] = bytes;
   report_output(options.output, planes, facts);
   return kOk;
 }
@@ -361,7 +413,8 @@ void add_options(OptionTable& cli, EditSettings& options) {
       ->between(-600.0, 600.0);
   cli.add("--rate", options.rate, "Frame rate of the result, by linear interpolation")
       ->frame_rate();
-  cli.add("--speed", options.speed, "Play the motion faster or slower; 2: twice as fast")
+  cli.add("--speed", options.speed,
+          "Play faster or slower; 2: twice as fast; the sound keeps its pitch")
       ->between(0.05, 20.0);
   cli.add("--mirror", options.mirror, "Swap left and right");
   cli.add("--take", options.take,

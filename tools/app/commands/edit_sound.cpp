@@ -10,6 +10,7 @@
 
 #include "tools/formats/media/audio.h"
 #include "tools/formats/media/container.h"
+#include "tools/formats/media/stretch.h"
 
 namespace animeme::tools {
 namespace {
@@ -33,9 +34,10 @@ bool is_whole(const std::vector<EditCut>& cuts) {
 
 class SoundWriter {
  public:
-  SoundWriter(media::AudioEncoder encoder, int sample_rate, int channels)
-      : encoder_(std::move(encoder)), rate_(sample_rate), channels_(channels) {
+  SoundWriter(media::AudioEncoder encoder, int sample_rate, int channels, double speed)
+      : encoder_(std::move(encoder)), rate_(sample_rate), channels_(channels), speed_(speed) {
     sound_.format = encoder_.format();
+    if (speed != 1) stretch_.emplace(sample_rate, channels, speed);
   }
 
   // A cut that ends `end` seconds behind the beginning of all.
@@ -49,10 +51,16 @@ class SoundWriter {
   }
 
   Result<media::EncodedAudio> finish() {
+    if (stretch_) {
+      stretched_.clear();
+      stretch_->finish(stretched_);
+      if (auto ok = encode(stretched_); !ok) return ok.error();
+    }
     auto packets = encoder_.finish();
     if (!packets) return packets.error();
     keep(std::move(*packets));
-    sound_.length = written_ * sound_.format.sample_rate / rate_;
+    const auto samples = speed_ == 1 ? written_ : std::llround(double(written_) / speed_);
+    sound_.length = samples * sound_.format.sample_rate / rate_;
     return std::move(sound_);
   }
 
@@ -118,6 +126,14 @@ class SoundWriter {
       for (const float sample : samples) both_.insert(both_.end(), {sample, sample});
       samples = both_;
     }
+    if (!stretch_) return encode(samples);
+    stretched_.clear();
+    stretch_->push(samples, stretched_);
+    return encode(stretched_);
+  }
+
+  Result<void> encode(std::span<const float> samples) {
+    if (samples.empty()) return {};
     auto packets = encoder_.push(samples);
     if (!packets) return packets.error();
     keep(std::move(*packets));
@@ -131,7 +147,10 @@ class SoundWriter {
   media::AudioEncoder encoder_;
   int rate_;
   int channels_;
-  std::int64_t written_ = 0;  // samples of a channel
+  double speed_;
+  std::optional<media::TimeStretch> stretch_;
+  std::vector<float> stretched_;
+  std::int64_t written_ = 0;  // samples of a channel, before they are stretched
   const EditSource* open_ = nullptr;
   std::optional<media::AudioReader> reader_;  // of that source
   std::int64_t position_ = 0;                 // samples of a channel that were taken from it
@@ -145,7 +164,7 @@ class SoundWriter {
 
 Result<std::optional<media::EncodedAudio>> cut_sound(const std::vector<EditCut>& cuts,
                                                      const media::AudioSettings& settings,
-                                                     bool& copies) {
+                                                     double speed, bool& copies) {
   int sample_rate = 0, channels = 1;
   const EditSource* seen = nullptr;
   for (const EditCut& cut : cuts) {
@@ -159,14 +178,14 @@ Result<std::optional<media::EncodedAudio>> cut_sound(const std::vector<EditCut>&
     channels = std::max(channels, reader->channels());
   }
   if (sample_rate == 0) return std::optional<media::EncodedAudio>();
-  if (copies && is_whole(cuts)) {
+  if (copies && speed == 1 && is_whole(cuts)) {
     auto coded = media::read_encoded_audio(cuts.front().source->path);
     if (coded && coded->format.codec == settings.codec) return std::optional(std::move(*coded));
   }
   copies = false;
   auto encoder = media::AudioEncoder::open(sample_rate, settings, channels);
   if (!encoder) return encoder.error();
-  SoundWriter writer(std::move(*encoder), sample_rate, channels);
+  SoundWriter writer(std::move(*encoder), sample_rate, channels, speed);
   double end = 0;
   for (const EditCut& cut : cuts) {
     end += seconds_of(cut);

@@ -15,10 +15,11 @@ namespace animeme::tools {
 /// The sound of all cuts, one behind the other, each as long as its frames to the sample; silence
 /// where a source has none. In two channels if a source has two. nullopt: no source has sound. The
 /// packets of a source that is wanted as a whole are copied if `copies`, which says afterwards
-/// whether they were. Errors: those of media::AudioReader and media::AudioEncoder.
+/// whether they were. `speed`: how much faster it becomes, at the same pitch. Errors: those of
+/// media::AudioReader and media::AudioEncoder.
 Result<std::optional<media::EncodedAudio>> cut_sound(const std::vector<EditCut>& cuts,
                                                      const media::AudioSettings& settings,
-                                                     bool& copies);
+                                                     double speed, bool& copies);
 
 /// The text tracks of all cuts, merged by name and language. Words that a cut divides are
 /// shortened. `speed`: how much faster everything becomes.

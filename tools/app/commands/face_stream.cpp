@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <memory>
 
 #include "tools/app/commands/interrupt.h"
 #include "tools/app/commands/options.h"
@@ -52,6 +54,7 @@ void warn_of_default_ranges(bool done) {
 
 void add_stream_options(OptionTable& cli, StreamSettings& settings) {
   add_coding_options(cli, settings);
+  add_default_ranges_option(cli, settings.default_ranges);
   cli.add("--intra-seconds", settings.intra_seconds,
           "Containers: seconds between random access points; 0: the first plane only")
       ->value("SECONDS=5")
@@ -61,7 +64,9 @@ void add_stream_options(OptionTable& cli, StreamSettings& settings) {
 
 fba::EncodeOptions encode_options(const StreamSettings& settings) {
   fba::EncodeOptions options;
-  if (settings.rms > 0 || settings.kbps > 0 || settings.small) options = fba::file_options();
+  const bool searched = settings.rms > 0 || settings.kbps > 0 || settings.small;
+  if (searched || settings.default_ranges) options = fba::file_options();
+  options.default_ranges = settings.default_ranges;
   options.fap_quant = settings.quant;
   options.max_rms = settings.small ? kSmallRms : settings.rms;
   options.skip_still = settings.small;
@@ -74,6 +79,7 @@ void give_limits(const StreamSettings& settings, live::Coding& coding) {
   coding.max_rms = limits.max_rms;
   coding.max_bits_per_second = limits.max_bits_per_second;
   coding.skip_still = limits.skip_still;
+  coding.default_ranges = coding.default_ranges || limits.default_ranges;
 }
 
 std::string seconds_text(double seconds) { return format("%.2f s", seconds); }
@@ -85,14 +91,35 @@ fba::EncodeOptions unit_options(const StreamSettings& settings, fap::Rate rate) 
   return options;
 }
 
+Result<std::vector<std::uint8_t>> encode_face(const fap::Sequence& face,
+                                              const fba::EncodeOptions& options,
+                                              std::span<const fba::BodyFrame> body) {
+  fba::EncodeReport report;
+  auto stream = fba::encode(face, options, body, &report);
+  if (stream && options.default_ranges) warn_of_default_ranges(report.default_ranges);
+  return stream;
+}
+
 Result<fba::AccessUnits> access_units(const FaceInput& face, const StreamSettings& settings) {
   if (!face.stream.empty()) return fba::split_access_units(face.stream);
   const fba::EncodeOptions options = unit_options(settings, face.clip.rate);
   AtStep step(Step::coding);
-  Result<std::vector<std::uint8_t>> stream = fba::encode(face.clip, options);
+  Result<std::vector<std::uint8_t>> stream = encode_face(face.clip, options);
   if (!stream) return stream.error();
   step.made(stream->size());
   return fba::split_access_units(*stream);
+}
+
+Result<fba::UnitReader> open_units(const std::string& path) {
+  const auto file = std::make_shared<std::ifstream>(path, std::ios::binary);
+  return fba::UnitReader::open(
+      [file](std::uint64_t offset, std::span<std::uint8_t> to) -> Result<std::size_t> {
+        file->clear();
+        file->seekg(std::streamoff(offset));
+        file->read(reinterpret_cast<char*>(to.data()), std::streamsize(to.size()));
+        if (file->bad()) return make_error(Code::io, "cannot read");
+        return std::size_t(file->gcount());
+      });
 }
 
 void add_sound_options(OptionTable& cli, SoundSettings& settings, bool copy) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "codec/decode/access_unit.h"
+#include "codec/decode/unit_reader.h"
 #include "codec/encode/encode.h"
 #include "tools/app/commands/common.h"
 #include "tools/formats/media/mux.h"
@@ -17,11 +18,12 @@ namespace animeme::tools {
 
 /// How a face is coded for a container.
 struct StreamSettings {
-  int quant = 1;             ///< fap_quant
-  double rms = 0;            ///< > 0: fewest bits at this error, see fba::EncodeOptions::max_rms
-  double kbps = 0;           ///< > 0: smallest error at this rate
-  bool small = false;        ///< smallest size that nobody sees: an error, and still planes skipped
-  double intra_seconds = 5;  ///< random access points of containers; raw streams have one
+  int quant = 1;       ///< fap_quant
+  double rms = 0;      ///< > 0: fewest bits at this error, see fba::EncodeOptions::max_rms
+  double kbps = 0;     ///< > 0: smallest error at this rate
+  bool small = false;  ///< smallest size that nobody sees: an error, and still planes skipped
+  bool default_ranges = false;  ///< no intra ranges are sent, see add_default_ranges_option()
+  double intra_seconds = 5;     ///< random access points of containers; raw streams have one
 };
 
 /// Error of --small, FAP units RMS: about that of quantiser 4.
@@ -39,12 +41,17 @@ void add_default_ranges_option(OptionTable& cli, bool& default_ranges);
 /// Warns of what --default-ranges has done, or that it had no effect as values lie outside.
 void warn_of_default_ranges(bool done);
 
-/// Adds --quant, these and --intra-seconds.
+/// Adds --quant, these, --default-ranges and --intra-seconds.
 void add_stream_options(OptionTable& cli, StreamSettings& settings);
 
 /// The options for a raw stream: one intra plane. With a limit of error or rate, those of preset
 /// `file`; else every FAP of the clip is coded.
 fba::EncodeOptions encode_options(const StreamSettings& settings);
+
+/// fba::encode(), and what there is to say about default ranges.
+Result<std::vector<std::uint8_t>> encode_face(const fap::Sequence& face,
+                                              const fba::EncodeOptions& options,
+                                              std::span<const fba::BodyFrame> body = {});
 
 /// The options for access units of containers.
 fba::EncodeOptions unit_options(const StreamSettings& settings, fap::Rate rate);
@@ -57,6 +64,9 @@ std::string seconds_text(double seconds);
 
 /// The access units of a face: a stream keeps its own coding, a clip is coded with `settings`.
 Result<fba::AccessUnits> access_units(const FaceInput& face, const StreamSettings& settings);
+
+/// The units of a raw stream in a file, which stays there. Errors: those of fba::UnitReader.
+Result<fba::UnitReader> open_units(const std::string& path);
 
 /// How the sound of a container is coded, as it was asked for.
 struct SoundSettings {

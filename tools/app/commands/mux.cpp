@@ -93,6 +93,7 @@ Result<LongFace> code_long_text(const MuxOptions& options) {
         return Result<void>();
       });
   if (!coded) return coded.error();
+  if (options.stream.default_ranges) warn_of_default_ranges(coded->default_ranges);
   out.close();
   if (!out) return make_error(Code::io, "cannot write the file").in_file(face.stream);
   step.made(size);
@@ -115,18 +116,6 @@ Result<LongFace> read_long_face(const MuxOptions& options) {
   const auto read = PlaneFile(options.face).for_each(note, &warnings);
   if (!read || !warnings.empty() || !faces) return LongFace();
   return LongFace{options.face, nullptr};
-}
-
-Result<fba::UnitReader> open_units(const LongFace& face) {
-  const auto file = std::make_shared<std::ifstream>(face.stream, std::ios::binary);
-  return fba::UnitReader::open(
-      [file](std::uint64_t offset, std::span<std::uint8_t> to) -> Result<std::size_t> {
-        file->clear();
-        file->seekg(std::streamoff(offset));
-        file->read(reinterpret_cast<char*>(to.data()), std::streamsize(to.size()));
-        if (file->bad()) return make_error(Code::io, "cannot read");
-        return std::size_t(file->gcount());
-      });
 }
 
 // A face out of a container keeps its times, which its planes alone would not tell.
@@ -184,7 +173,7 @@ Result<int> run(MuxOptions options) {
     if (!whole) return whole.error().in_file(options.face);
     units = std::move(*whole);
   } else {
-    Result<fba::UnitReader> opened = open_units(*face);
+    Result<fba::UnitReader> opened = open_units(face->stream);
     if (!opened) return opened.error().in_file(options.face);
     reader = std::move(*opened);
   }

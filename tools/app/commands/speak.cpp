@@ -117,7 +117,7 @@ std::string language_of(const SpeakOptions& options, const speech::Spoken& spoke
 Result<std::vector<std::uint8_t>> coded_clip(const fap::Sequence& clip,
                                              const StreamSettings& settings) {
   AtStep step(Step::coding);
-  auto stream = fba::encode(clip, encode_options(settings));
+  auto stream = encode_face(clip, encode_options(settings));
   if (stream) step.made(stream->size());
   return stream;
 }
@@ -532,10 +532,10 @@ void add_options(OptionTable& cli, SpeakOptions& options) {
           "with a lower confidence, 0 to 1; 0: accept any transcript")
       ->between(0.0, 1.0);
   cli.add("--json", options.json, "Print a machine-readable summary");
-  cli.show_in_help_all(
-      "Details of coding and alignment",
-      "--rms --kbps --intra-seconds --audio-codec --audio-bitrate --exact --min-confidence "
-      "--no-tongue --visemes --expressions --look --still --seed --keep --bend");
+  cli.show_in_help_all("Details of coding and alignment",
+                       "--rms --kbps --default-ranges --intra-seconds --audio-codec "
+                       "--audio-bitrate --exact --min-confidence "
+                       "--no-tongue --visemes --expressions --look --still --seed --keep --bend");
 }
 
 }  // namespace
