@@ -64,11 +64,12 @@ inline constexpr Module kModules[] = {
     {"tools/speech/text", "dam/script"},
     {"tools/speech/voice", "dam/behaviour tools/speech/text tools/formats/media"},
     {"tools/speech/talking",
-     "dam/performance codec/encode tools/speech/voice tools/formats/scripts tools/formats/programs"},
+     "dam/performance codec/encode tools/speech/voice tools/formats/scripts "
+     "tools/formats/programs"},
     {"tools/view/viewer/rig", "fap/head", false},  // also the page's WebAssembly
     {"tools/view/viewer",
      "dam/script tools/view/render tools/view/viewer/rig tools/formats/common"},
-    {"tools/live/web", "tools/formats/media tools/formats/common"},
+    {"tools/live/web", "codec/encode tools/formats/media tools/formats/common"},
     {"tools/live/webrtc", "tools/live/web tools/formats/common"},
     {"tools/live/engines", "codec/encode tools/formats/media"},
     {"tools/view/plot",

@@ -104,8 +104,8 @@ Result<void> add_live(Carried& m) {
   m.rows = {
       sent_units(kFbaLive, m.options->quant, false, Headers::rtp, m.error_of(plain->shown), *plain),
       sent_units(kFbaLive, *quant, true, Headers::rtp, error, *live),
-      sent_units("FBA, joins each second, /face", *quant, true, Headers::websocket, error, *live,
-                 kFaceHeader),
+      sent_units("FBA, joins each second, /face?as-sent", *quant, true, Headers::websocket, error,
+                 *live, kFaceHeader),
       sent_units("FBA, one join", *quant, true, Headers::websocket, m.error_of(once->shown),
                  *once)};
   add_values(m, m.rows[1], *live);
