@@ -8,7 +8,7 @@ namespace animeme::c {
 
 static_assert(sizeof(animeme_error) == 512 && sizeof(animeme_frame) == 432 &&
                   sizeof(animeme_body) == 1496 && sizeof(animeme_encode_options) == 64 &&
-                  sizeof(animeme_speak_options) == 168,
+                  sizeof(animeme_speak_options) == 176,
               "a struct may grow at its end only, and then in a new version");
 
 animeme_status status_of(Code code) {
