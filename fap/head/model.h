@@ -116,6 +116,11 @@ struct ShapeControl {
   /// 1..14: the viseme of FAP 1 that its maker assigned. A frame whose mouth is given by FAP 1 only
   /// shows the shape unchanged.
   std::optional<int> viseme = {};
+  /// 1..6: the expression of FAP 2 that its maker made as a whole face (joy, sadness ...); see
+  /// control_values().
+  std::optional<int> expression = {};
+  /// Of such a shape what lies above the mouth: make_rig() adds it behind the shapes of a head.
+  bool upper = false;
 };
 
 /// Target::control of the first shape of a head; smaller numbers are FAPs.

@@ -193,6 +193,35 @@ bool moves_mouth(const fap::Frame& frame) {
   return false;
 }
 
+bool moves_brows(const fap::Frame& frame) {
+  constexpr int kBrows = 3;
+  const auto& [first, size, name] = fap::kGroups[kBrows];
+  for (int f = first; f < first + size; ++f) {
+    if (frame.mask[std::size_t(f)]) return true;
+  }
+  return false;
+}
+
+// FAP 2 by expressions that the head's maker made; those shown are taken out of the frame. `whole`:
+// nothing else moves the mouth.
+void show_own_expressions(const Rig& rig, bool whole, fap::Frame& frame, ControlValues& values) {
+  constexpr int kMostIntensity = 63;
+  if (!frame.mask[2] || moves_brows(frame)) return;
+  fap::Expression& coded = frame.expression;
+  for (const auto& [select, intensity] :
+       {std::pair(coded.select1, &coded.intensity1), std::pair(coded.select2, &coded.intensity2)}) {
+    if (select < 1 || *intensity <= 0) continue;
+    for (std::size_t i = 0; i < rig.shapes.size(); ++i) {
+      const ShapeControl& shape = rig.shapes[i];
+      if (shape.expression != select || shape.upper == whole) continue;
+      values[kFirstShape + i] +=
+          kFullShape * float(std::min(*intensity, kMostIntensity)) / kMostIntensity;
+      *intensity = 0;
+      break;
+    }
+  }
+}
+
 // Weights of visemes by shapes that are visemes by name, where all that is shown are there.
 bool show_visemes(const Rig& rig, fap::VisemeWeights weights, ControlValues& values) {
   weights[0] = 0;  // silence is the face at rest
@@ -344,19 +373,21 @@ fap::Frame opened_for_shapes(const fap::Frame& low, double gain) {
 }  // namespace
 
 ControlValues control_values(const Rig& rig, const fap::Frame& frame, const PoseOptions& options) {
-  fap::Frame low = low_level(frame);
+  ControlValues values(kFirstShape + rig.shapes.size());
+  fap::Frame rest = frame;
+  const bool silent = !frame.mask[1] && !moves_mouth(frame) && !options.visemes;
+  if (!rig.shapes.empty()) show_own_expressions(rig, silent, rest, values);
+  fap::Frame low = low_level(rest);
   if (rig.mouth_gain != 1) {
     low = rig.shapes.empty() ? fap::open_wider(low, rig.mouth_gain)
                              : opened_for_shapes(low, rig.mouth_gain);
   }
   if (options.follow) lids_follow_gaze(rig, low);
   if (options.visemes) move_tongue(*options.visemes, low);
-  ControlValues values(kFirstShape + rig.shapes.size());
   for (std::size_t f = fap::kFirstLowLevel; f <= fap::kFapCount; ++f) {
     values[f] = low.mask[f] ? float(low.value[f]) : 0;
   }
   if (rig.shapes.empty()) return values;
-  fap::Frame rest = frame;
   const bool by_script = options.visemes && show_script(rig, *options.visemes, low, values);
   if (!by_script && show_own_visemes(rig, rest, values)) low = low_level(rest);
   static const std::optional<int> kJaw = fap::find_arkit("jawOpen");

@@ -6,6 +6,7 @@
 #include "fap/head/detail/shape_measures.h"
 #include "fap/head/detail/stops.h"
 #include "fap/head/detail/targets.h"
+#include "fap/head/detail/upper_face.h"
 #include "fap/head/detail/whole.h"
 
 namespace animeme::head {
@@ -153,6 +154,7 @@ Rig make_rig(const Head& head) {
   const bool given = head.seams.neck_weights.size() == head.part(Part::skin).positions.size();
   rig.neck_weights = given ? head.seams.neck_weights : neck_weights(rig);
   if (!rig.reaches.empty()) detail::watch_outside(head, rig);
+  detail::add_upper_faces(rig);
   return rig;
 }
 

@@ -147,7 +147,10 @@ using ControlValues = std::vector<float>;
 /// the frame (fap::ShapeFitter), few of ARKit's and none against each other; FAP 14, 18, 39 and 40
 /// at 0 are ignored in that fit, as the jaw moves the chin and rounded lips move the cheeks. FAP 1
 /// without mouth FAPs is shown by the head's own viseme shapes, unchanged (mouth_gain does not
-/// apply), if there is one for each viseme shown; so is PoseOptions::visemes. Frames are
+/// apply), if there is one for each viseme shown; so is PoseOptions::visemes. FAP 2 without FAPs of
+/// the brows (31 to 38) is shown by the head's own expression, if it has that: the whole shape, or
+/// where FAP 1, mouth FAPs or PoseOptions::visemes say what the mouth does, what it does above the
+/// mouth, so that lips close as without it. Frames are
 /// independent, so they may be requested in any order. With PoseOptions::follow, lids_follow_gaze()
 /// is applied first.
 ControlValues control_values(const Rig& rig, const fap::Frame& frame,

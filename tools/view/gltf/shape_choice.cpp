@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::size_t kMouthShapes = 6;  // of ARKit's, with a jaw: they make a mouth
 
+constexpr int kExpressions = 7;  // of FAP 2, the neutral one included: smaller moods are among them
+
 constexpr std::size_t kMostNamed = 12;  // in a note
 
 // The convention of names that have a rule: those of the user.
@@ -224,7 +226,9 @@ head::ShapeControl control_of(const ChosenShape& shape) {
   const bool whole = meaning.parts.size() == 1 && meaning.parts.front().sides == 3 &&
                      meaning.parts.front().lips == 3;
   if (meaning.viseme > 0) control.viseme = meaning.viseme;
-  if (meaning.mood > 0) control.arkit = fap::kWholeFace;
+  const bool fitted = meaning.faps.mask.any();
+  if (meaning.mood > 0 && fitted) control.arkit = fap::kWholeFace;
+  if (meaning.mood > 0 && meaning.mood < kExpressions) control.expression = meaning.mood;
   if (meaning.set == ShapeSet::arkit && whole) control.arkit = meaning.parts.front().channel;
   return control;
 }
@@ -246,9 +250,14 @@ std::vector<ChosenShape> choose_shapes(const std::vector<std::string>& names, Mo
       return true;
     });
   };
-  // ARKit's shapes make any of these faces.
+  // ARKit's shapes make any of these faces; those of FAP 2 are shown for FAP 2 alone.
   if (arkit) {
-    move_out([](const ShapeMeaning& meaning) { return meaning.mood > 0 || meaning.fap > 0; });
+    move_out([](const ShapeMeaning& meaning) {
+      return meaning.mood >= kExpressions || meaning.fap > 0;
+    });
+    for (ChosenShape& shape : shapes) {
+      if (shape.meaning.mood > 0) shape.meaning.faps = {};
+    }
   }
   const bool by_fap = has_fap_mouth(shapes);
   if (any_viseme && (arkit || by_fap)) {

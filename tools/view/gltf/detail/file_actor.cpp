@@ -28,6 +28,8 @@ std::size_t target_count(const Json& primitive) {
 head::Rig without_meshes(head::Rig rig) {
   head::Rig bare;
   bare.shapes = std::move(rig.shapes);
+  // The file has no such shapes.
+  std::erase_if(bare.shapes, [](const head::ShapeControl& shape) { return shape.upper; });
   bare.lip_measures = std::move(rig.lip_measures);
   bare.shown_by_shapes = rig.shown_by_shapes;
   bare.fapu = rig.fapu;

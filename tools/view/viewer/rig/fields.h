@@ -42,6 +42,8 @@ void pass_shape(Archive& archive, Shape& shape) {
   archive.frame(shape.faps);
   archive.perhaps(shape.arkit);
   archive.perhaps(shape.viseme);
+  archive.perhaps(shape.expression);
+  archive.flag(shape.upper);
 }
 
 template <class Archive, class Pairs>

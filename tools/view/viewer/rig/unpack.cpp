@@ -180,9 +180,9 @@ bool is_target(const head::Rig& rig, const head::Target& target) {
 
 bool is_shape(const head::ShapeControl& shape) {
   const int arkit = shape.arkit.value_or(0);
-  const int viseme = shape.viseme.value_or(1);
+  const int viseme = shape.viseme.value_or(1), expression = shape.expression.value_or(1);
   return arkit >= fap::kWholeFace && arkit < int(fap::kArkitChannelCount) && viseme >= 1 &&
-         viseme <= 14;
+         viseme <= 14 && expression >= 1 && expression <= 6;
 }
 
 // What pose() takes for granted.
