@@ -98,7 +98,11 @@ TEST_F(HeadLinesTest, CommandsGoAmongLines) {
   ASSERT_TRUE(lines->push({"one", R"({"do": "say", "text": "two", "when": "next"})"}));
   EXPECT_EQ(take(*lines, 2).size(), 2U);
   EXPECT_FALSE(lines->push({R"({"do": "dance"})"}));
-  const Result<void> end = lines->push({R"({"do": "end"})"});
+  const auto ids = lines->push(
+      {"three", R"({"do": "mark", "id": "m"})", R"({"do": "say", "text": "four", "id": "x"})"});
+  ASSERT_TRUE(ids);
+  EXPECT_THAT(*ids, ElementsAre("4", "x"));
+  const auto end = lines->push({R"({"do": "end"})"});
   ASSERT_FALSE(end);
   EXPECT_THAT(end.error().message, HasSubstr("DELETE"));
 }

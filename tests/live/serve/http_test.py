@@ -233,8 +233,11 @@ class Heads(unittest.TestCase):
                      '["One.", {"text": "Two.", "id": "2"}]', 'Three.\n{"text": "Four."}\n']:
             self.assertEqual(self.server.ask("/heads/jo/say", "POST", body)[0], 202, body)
         self.assertTrue(all(told.wait("done") for _ in range(5)))
+        ids = self.server.json("/heads/jo/say", "POST", '{"text": "Five.", "id": "last"}\nSix.')[1]["ids"]
+        self.assertEqual(ids, ["last", "7"])
+        self.assertTrue(all(told.wait("done") for _ in range(2)))
         texts = [event["text"] for event in told.all if event["event"] == "started"]
-        self.assertEqual(texts, ["Hello there.", "One.", "Two.", "Three.", "Four."])
+        self.assertEqual(texts, ["Hello there.", "One.", "Two.", "Three.", "Four.", "Five.", "Six."])
         self.assertEqual(told.all[0]["id"], "greeting")
         status, answer = self.server.json("/heads/jo/say", "POST", '{"text": "Hi.", "loud": true}')
         self.assertEqual(status, 400)

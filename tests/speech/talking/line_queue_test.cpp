@@ -164,6 +164,8 @@ TEST_F(Queue, LongTextIsSpokenInPartsAndIsOneLineIfItHasAName) {
   }
   tell(10);
   EXPECT_EQ(texts.size(), 3u);
+  EXPECT_LT(texts[1].size(), 100u);  // the whole text goes with its first part alone
+  EXPECT_GT(texts[0].size(), 150u);
   EXPECT_THAT(told, ElementsAre(HasSubstr("started"), HasSubstr("done")));
 
   // Stopped in its first part, all of it is cancelled once.

@@ -51,7 +51,9 @@ Result<std::shared_ptr<Head>> Head::open(const std::string& name, const HeadSett
 
 Head::~Head() { finish(); }
 
-Result<void> Head::say(std::vector<std::string> lines) { return lines_->push(std::move(lines)); }
+Result<std::vector<std::string>> Head::say(std::vector<std::string> lines) {
+  return lines_->push(std::move(lines));
+}
 
 bool Head::silent() const {
   const std::lock_guard lock(mutex_);

@@ -60,8 +60,8 @@ class Head : public Beat {
   ~Head() override;
 
   const HeadSettings& settings() const { return settings_; }  ///< as they were given
-  /// Errors: those of HeadLines::push().
-  Result<void> say(std::vector<std::string> lines);
+  /// As HeadLines::push().
+  Result<std::vector<std::string>> say(std::vector<std::string> lines);
   /// Cancels what it says and was to say, with events. Call ClockLoop::remove() first, so that no
   /// step runs.
   void hush(const std::string& why);

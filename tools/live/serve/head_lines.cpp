@@ -14,7 +14,7 @@ constexpr double kBytesPerSecond = 14;  // of a text that is spoken at the usual
 double seconds_of(std::size_t bytes) { return double(bytes) / kBytesPerSecond; }
 
 // What a line does to the queue.
-enum class What : std::uint8_t { speaks, replaces, empties, moves, ends };
+enum class What : std::uint8_t { speaks, replaces, marks, empties, moves, ends };
 
 What what_is(const std::string& line) {
   const Result<speech::LineCommand> command = speech::read_line(line, false);
@@ -23,7 +23,7 @@ What what_is(const std::string& line) {
     case speech::LineCommand::Do::say:
       return command->when == speech::LineCommand::When::now ? What::replaces : What::speaks;
     case speech::LineCommand::Do::mark:
-      return What::speaks;
+      return What::marks;
     case speech::LineCommand::Do::stop:
     case speech::LineCommand::Do::drop:
       return What::empties;
@@ -52,7 +52,8 @@ HeadLines::HeadLines(speech::LineMaker maker, Voices& voices, media::Clock& cloc
       queue_(maker_.most_bytes, maker_.cut, maker_.json, maker_.pieces, maker_.one_line),
       changed_(std::move(changed)) {}
 
-Result<void> HeadLines::push(std::vector<std::string> lines) {
+Result<std::vector<std::string>> HeadLines::push(std::vector<std::string> lines) {
+  const std::lock_guard one_at_a_time(pushing_);
   std::erase_if(lines, [](const std::string& line) { return line.empty(); });
   std::size_t bytes = queue_.bytes(), count = queue_.waiting();
   bool more = false;  // than commands that make room
@@ -73,9 +74,12 @@ Result<void> HeadLines::push(std::vector<std::string> lines) {
                       "too much is queued; send more when some of it has been spoken");
   }
   Result<void> done;
+  std::vector<std::string> ids;
   for (std::string& line : lines) {
+    const What what = what_is(line);
     done = queue_.push(std::move(line), clock_.now());
     if (!done) break;
+    if (what == What::speaks || what == What::replaces) ids.push_back(queue_.last_id());
   }
   {
     const std::lock_guard lock(mutex_);
@@ -83,7 +87,8 @@ Result<void> HeadLines::push(std::vector<std::string> lines) {
   }
   order();
   tell();
-  return done;
+  if (!done) return done.error();
+  return ids;
 }
 
 bool HeadLines::idle() const {

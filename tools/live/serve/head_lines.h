@@ -24,7 +24,7 @@ class HeadLines : public speech::LineSource, public std::enable_shared_from_this
  public:
   static constexpr std::size_t kMostLines = 1000;   ///< in the queue
   static constexpr std::size_t kMostBytes = 65536;  ///< of these
-  /// Bytes of a part of a line that is synthesised at once: some 20 s, 2 MB of sound.
+  /// Bytes of a part of a line that is synthesised at once: some 10 to 20 s, 1 to 2 MB of sound.
   static constexpr std::size_t kPartBytes = 300;
 
   /// `most_seconds`: of speech that may wait, besides a line of any length. `changed` is called
@@ -36,8 +36,8 @@ class HeadLines : public speech::LineSource, public std::enable_shared_from_this
   /// Errors: out_of_range (too many or too much in the queue behind the last "stop" or "drop",
   /// which are always accepted), invalid_argument ("end", which a head does not support; the
   /// message has the alternative), those of read_line(). Lines before a wrong one are executed,
-  /// except for out_of_range and "end".
-  Result<void> push(std::vector<std::string> lines);
+  /// except for out_of_range and "end". Gives the ids of the lines in their events.
+  Result<std::vector<std::string>> push(std::vector<std::string> lines);
   bool idle() const;            ///< no queued lines and no pending news
   std::size_t waiting() const;  ///< lines not yet returned by take(), parts of lines included
   std::size_t bytes() const;    ///< of these, before synthesis
@@ -65,6 +65,7 @@ class HeadLines : public speech::LineSource, public std::enable_shared_from_this
   media::Clock& clock_;
   mutable speech::LineQueue queue_;
 
+  std::mutex pushing_;        // lines of a request follow each other
   mutable std::mutex mutex_;  // for what follows
   bool making_ = false;
   bool news_ = false;  // not read yet

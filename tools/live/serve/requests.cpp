@@ -191,11 +191,13 @@ ServerReply HeadServer::say(const std::string& name, const std::string& body) {
     return later(429, "All heads together have too much to say; send more later.", 5);
   }
   const std::size_t count = lines.size();
-  if (auto ok = head->say(std::move(lines)); !ok) {
-    if (ok.error().code != Code::out_of_range) return refusal(ok.error());
-    return later(429, ok.error().describe(), head->seconds_waiting() / 2);
+  const auto ids = head->say(std::move(lines));
+  if (!ids) {
+    if (ids.error().code != Code::out_of_range) return refusal(ids.error());
+    return later(429, ids.error().describe(), head->seconds_waiting() / 2);
   }
   return reply(202, {{"lines", count},
+                     {"ids", *ids},
                      {"waiting", head->lines_waiting()},
                      {"seconds_waiting", std::round(head->seconds_waiting() * 10) / 10}});
 }

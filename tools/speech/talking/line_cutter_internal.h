@@ -13,19 +13,22 @@
 
 namespace animeme::speech {
 
-/// Where a text of more than `most` bytes is cut: behind its last sentence, else at its last blank,
-/// else in front of a character.
+/// Where a text of more than `most` bytes is cut: behind its last sentence in the first half of
+/// them, else behind its first one there, else at its last blank, else in front of a character.
 inline std::size_t place_of_cut(std::string_view text, std::size_t most) {
   constexpr std::string_view kEnds[] = {". ", "! ", "? ", "\n", "\u3002", "\uFF01", "\uFF1F"};
-  std::size_t end = 0;
+  std::size_t early = 0, late = most + 1;
   for (const std::string_view sign : kEnds) {
-    const std::size_t found = text.substr(0, most).rfind(sign);
-    if (found != std::string_view::npos) end = std::max(end, found + sign.size());
+    const std::size_t before = text.substr(0, most / 2).rfind(sign);
+    if (before != std::string_view::npos) early = std::max(early, before + sign.size());
+    const std::size_t behind = text.substr(0, most).find(sign, most / 2);
+    if (behind != std::string_view::npos) late = std::min(late, behind + sign.size());
   }
-  if (end > most / 4) return end;
+  if (early > most / 8) return early;
+  if (late <= most) return late;
   const std::size_t blank = text.rfind(' ', most);
   if (blank != std::string_view::npos && blank > 0) return blank;
-  end = most;
+  std::size_t end = most;
   while (end > 1 && (std::uint8_t(text[end]) & 0xC0U) == 0x80U) --end;
   return end;
 }

@@ -13,7 +13,7 @@ namespace animeme::speech {
 namespace {
 
 constexpr std::size_t kMostMade = 4;  // lines that are made and wait: a voice is faster than speech
-constexpr double kMostMadeSeconds = 20;  // of speech, which takes memory
+constexpr double kMostMadeSeconds = 10;  // of speech, which takes memory
 constexpr std::size_t kMostKept = 8;     // such lines when others are put before them
 constexpr std::size_t kQueueBytes = std::size_t(64) << 20;
 constexpr std::size_t kQueueLines = 100000;
@@ -136,12 +136,17 @@ void LineQueue::say(LineCommand command, double arrived) {
     entry.whole = whole;
     entry.first_part = whole == 0 || i == 0;
     entry.last_part = whole == 0 || i + 1 == parts.size();
-    entry.text = parts.size() > 1 && whole == 0 ? parts[i] : command.text;
+    // The whole of a text goes with its first part alone: it may have hundreds.
+    if (whole == 0) entry.text = parts.size() > 1 ? parts[i] : command.text;
+    if (whole > 0 && i == 0) entry.text = command.text;
     entry.payload = std::move(parts[i]);
     entry.bytes = entry.payload.size();
     const bool fits = entry.payload.size() <= most_bytes_;
     if (pieces_ && fits && !add_piece(entry)) continue;
-    if (entry.first_part) tell(LineNews::What::queued, entry, {}, arrived);
+    if (entry.first_part) {
+      tell(LineNews::What::queued, entry, {}, arrived);
+      last_id_ = entry.id;
+    }
     if (!fits) {
       const std::string why =
           "it has more than " + std::to_string(most_bytes_) + " bytes; send shorter pieces";
@@ -260,6 +265,11 @@ void LineQueue::close() {
 bool LineQueue::full() {
   const std::lock_guard lock(mutex_);
   return bytes_ >= kQueueBytes || entries_.size() >= kQueueLines;
+}
+
+std::string LineQueue::last_id() {
+  const std::lock_guard lock(mutex_);
+  return last_id_;
 }
 
 std::size_t LineQueue::waiting() {

@@ -41,6 +41,7 @@ class LineQueue : public LineSource {
   void close();
   /// Whether the limit of 64 MB or 100000 lines is reached. push() still works.
   bool full();
+  std::string last_id();  ///< of the line that was queued last; empty: none
   std::size_t waiting();  ///< lines and marks not yet returned by take()
   std::size_t bytes();    ///< of these, before synthesis
 
@@ -53,7 +54,7 @@ class LineQueue : public LineSource {
     bool words = false;       ///< only PieceStream::words() are wanted
   };
   /// The next line to synthesise, in the order in which they will be spoken. Waits while four
-  /// synthesised lines, or 20 s of speech, are queued before it. nullopt: leave() was called.
+  /// synthesised lines, or 10 s of speech, are queued before it. nullopt: leave() was called.
   std::optional<Job> next_job();
   /// The same without waiting.
   std::optional<Job> try_job();
@@ -118,6 +119,7 @@ class LineQueue : public LineSource {
   std::size_t bytes_ = 0;  // of payloads
   std::size_t made_ = 0;   // entries with speech
   std::uint64_t number_ = 0;
+  std::string last_id_;
   std::vector<LineNews> news_;
   std::vector<std::string> warnings_;
   bool closed_ = false, left_ = false;
