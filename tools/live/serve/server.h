@@ -67,9 +67,9 @@ class HeadServer {
   /// No new heads and lines from now on: they are refused with 503, as /ready is. What was accepted
   /// is still spoken.
   void drain();
-  bool silent() const;  ///< nothing is said, and nothing waits to be said
-                        /// Deletes heads that have slept too long, and looks whether planes are
-                        /// late; call once a second.
+  /// Nothing is said, and nothing waits to be said.
+  bool silent() const;
+  /// Deletes heads that have slept too long, and looks whether planes are late; call once a second.
   void look();
   /// Cancels what is left to say, with events, tells all viewers to come back (1001), and stops
   /// serving; takes at most two seconds.
