@@ -159,5 +159,59 @@ TEST(Encode, LargeStepsBecomeIntraPlanes) {
   }
 }
 
+// The widest range holds a difference of 1860: one more needs an intra plane, none less does.
+TEST(Encode, StepsThatARangeHoldsStayPredicted) {
+  const std::vector<std::pair<std::vector<int>, std::vector<bool>>> clips = {
+      {{0, 1860, 0, -1860, 0}, {true, false, false, false, false}},
+      {{-1, 1860, 1859}, {true, true, false}},
+      {{1, -1860, -1859}, {true, true, false}},
+      {{900, -960, 900, -961, 900}, {true, false, false, true, true}},
+  };
+  for (const auto& [values, intra] : clips) {
+    fap::Sequence clip;
+    for (const int value : values) {
+      fap::Frame frame;
+      frame.number = std::int64_t(clip.frames.size());
+      frame.set(15, value);
+      clip.frames.push_back(frame);
+    }
+    const auto stream = fba::encode(clip);
+    ASSERT_TRUE(stream) << stream.error().describe();
+    const auto decoded = fba::decode(*stream);
+    ASSERT_TRUE(decoded);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      EXPECT_EQ(decoded->planes[i].intra, intra[i]) << values[0] << " " << i;
+      EXPECT_EQ(decoded->planes[i].face.value[15], values[i]) << values[0] << " " << i;
+    }
+  }
+}
+
+// Each rate that a stream can express, whole or not, has exact times in ticks.
+TEST(AccessUnits, TimesAreExactAtEachRate) {
+  const std::vector<fap::Rate> rates = {{25, 1},       {1, 1},        {25, 2},       {401, 16},
+                                        {30000, 1001}, {24000, 1001}, {15000, 1001}, {125, 8},
+                                        {255, 1},      {1, 16},       {59, 4},       {60000, 1001}};
+  for (const fap::Rate rate : rates) {
+    fap::Sequence clip;
+    clip.rate = rate;
+    for (const int number : {0, 1, 2, 4, 5}) {
+      fap::Frame frame;
+      frame.number = number;
+      frame.set(3, 10 * number);
+      clip.frames.push_back(frame);
+    }
+    const auto stream = fba::encode(clip);
+    ASSERT_TRUE(stream) << rate.num << "/" << rate.den << ": " << stream.error().describe();
+    const auto units = fba::split_access_units(*stream);
+    ASSERT_TRUE(units);
+    EXPECT_GE(units->timescale, 10000u);
+    for (std::size_t i = 0; i < clip.frames.size(); ++i) {
+      EXPECT_EQ(units->units[i].time * std::int64_t(rate.num),
+                clip.frames[i].number * std::int64_t(units->timescale) * std::int64_t(rate.den))
+          << rate.num << "/" << rate.den << " frame " << i;
+    }
+  }
+}
+
 }  // namespace roundtrip_test
 }  // namespace animeme

@@ -223,5 +223,22 @@ TEST(Arkit, AnyNumberIsSafeAndCodable) {
   EXPECT_EQ(shown({{"jawOpen", std::nan("")}}), shown({}));
 }
 
+// Angles of the eyeballs give way to shapes of the gaze, in each of the four FAPs.
+TEST(Arkit, ShapesOfTheGazeCountMoreThanAngles) {
+  const ArkitFrame looks = weights({{"eyeLookDownLeft", 0.5},
+                                    {"eyeLookDownRight", 0.5},
+                                    {"eyeLookInLeft", 0.5},
+                                    {"eyeLookOutRight", 0.5}});
+  ArkitFrame both = looks;
+  for (const char* angle : {"leftEyeYaw", "leftEyePitch", "rightEyeYaw", "rightEyePitch"}) {
+    both[channel(angle)] = 0.3;
+  }
+  const Frame alone = arkit_to_fap(looks, kAllArkit), with_angles = arkit_to_fap(both, kAllArkit);
+  for (const std::size_t fap : {23, 24, 25, 26}) {
+    EXPECT_NE(alone.value[fap], 0) << fap;
+    EXPECT_EQ(with_angles.value[fap], alone.value[fap]) << fap;
+  }
+}
+
 }  // namespace arkit_test
 }  // namespace animeme::fap

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "fap/landmarks.h"
@@ -279,6 +280,29 @@ TEST(Landmarks, SmoothingKeepsLinesAndCountsTimeNotFrames) {
   EXPECT_EQ(found->clip.frames[12].number, 32);
   EXPECT_NEAR(found->clip.frames[9].value[3], 90, 25);  // nothing from the other side of the gap
   EXPECT_NEAR(found->clip.frames[19].value[3], 390, 25);
+}
+
+// The ends of a take look to their one side: a mouth that comes to rest at its end is the neutral
+// one, and nothing behind it is read.
+TEST(LandmarksNoise, ATakeMayEndAtRest) {
+  LandmarkTrack track{{30, 1}, {}, true, {}};
+  for (const auto& [id, place] : test::made_up_face()) track.points.push_back(id);
+  for (std::int64_t number = 0; number < 10; ++number) {
+    Frame frame;
+    frame.number = number;
+    const int wide = number < 6 ? 100 + 97 * int(number % 3) : 0;
+    for (const int fap : {53, 54}) frame.set(fap, wide);  // corners of the lips, which stay closed
+    LandmarkFrame seen{number, {}, {}, {}};
+    const FeaturePoints face = test::moved_face(frame);
+    for (const std::string& id : track.points) seen.at.push_back(face.find(id)->second);
+    track.frames.push_back(std::move(seen));
+  }
+  const auto found = landmarks_to_fap(track, {});
+  ASSERT_TRUE(found) << found.error().describe();
+  const auto& neutral = found->neutral_frames;
+  for (const std::int64_t number : {7, 8, 9}) {
+    EXPECT_EQ(std::count(neutral.begin(), neutral.end(), number), 1) << number;
+  }
 }
 
 }  // namespace landmarks_noise_test

@@ -48,10 +48,10 @@ Sequence ramp(Rate rate, int frames) {
 
 TEST(Resample, LiesOnTheLineAndKeepsTheDuration) {
   const std::vector<Rate> rates = {{25, 1}, {30, 1}, {30000, 1001}, {24000, 1001},
-                                   {25, 2}, {1, 1},  {60, 1}};
+                                   {25, 2}, {1, 1},  {60, 1},       {10, 1}};
   for (const Rate from : rates) {
     for (const Rate to : rates) {
-      for (const int count : {1, 2, 7, 100}) {
+      for (const int count : {1, 2, 6, 7, 11, 100}) {
         const Sequence clip = ramp(from, count);
         const Sequence other = resample(clip, to);
         const Resampler resampler(from, to);

@@ -5,6 +5,9 @@
 
 #include <initializer_list>
 #include <utility>
+#include <vector>
+
+#include "tests/fap/make.h"
 
 namespace animeme::fap {
 namespace shape_fit_test {
@@ -116,6 +119,21 @@ TEST(ShapeFitter, PressedLipsMeetIfTheyDoNotYet) {
     EXPECT_GT(closing(some, pair), closing(by_faps, pair) + 8);
     EXPECT_LT(closing(some, pair), 45);
   }
+}
+
+// What stands behind the mask of a shape is not part of it, whatever its value.
+TEST(ShapeFitter, ShapesAreWhatTheirMaskHas) {
+  std::vector<Frame> plain = {made::make_frame(0, {{3, 600}, {5, -500}}),
+                              made::make_frame(0, {{19, 1024}})};
+  std::vector<Frame> stale = plain;
+  stale[0].value[19] = 1024;
+  stale[1].value[3] = -600;
+  stale[1].value[5] = 500;
+  ShapeFitter by_mask(plain), with_rest(stale);
+  const Frame face = frame_of({{3, 300}, {5, -250}, {19, 512}});
+  EXPECT_EQ(by_mask.fit(face), with_rest.fit(face));
+  EXPECT_NEAR(by_mask.fit(face)[0], 0.5, 0.01);
+  EXPECT_NEAR(by_mask.fit(face)[1], 0.5, 0.01);
 }
 
 }  // namespace shape_fit_test

@@ -162,5 +162,31 @@ TEST(BoundedFit, NothingElseIsNearer) {
   }
 }
 
+// Two shapes side by side whose weights may be 1 together: the nearest face within that limit takes
+// the same off both.
+TEST(BoundedFit, TheNearestFaceWithinALimitOfTheSum) {
+  const auto fit = [](double left, double right) {
+    internal::BoundedFit fitter({{{6, 1000}}, {{7, 1000}}}, 0, 0, 1);
+    internal::FapValues target{};
+    target[6] = 1000 * left;
+    target[7] = 1000 * right;
+    Mask mask;
+    mask.set(6);
+    mask.set(7);
+    return fitter.fit(mask, target);
+  };
+  const double cases[][4] = {{0.8, 0.8, 0.5, 0.5},
+                             {0.9, 0.5, 0.7, 0.3},
+                             {1, 0.1, 0.95, 0.05},
+                             {0.4, 0.5, 0.4, 0.5},
+                             {0.2, 0.95, 0.125, 0.875}};
+  for (const auto& [left, right, first, second] : cases) {
+    const std::vector<double> weights = fit(left, right);
+    EXPECT_NEAR(weights[0], first, 1e-3) << left << " " << right;
+    EXPECT_NEAR(weights[1], second, 1e-3) << left << " " << right;
+    EXPECT_LE(weights[0] + weights[1], 1 + 1e-9);
+  }
+}
+
 }  // namespace viseme_test
 }  // namespace animeme::fap
