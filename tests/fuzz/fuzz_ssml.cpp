@@ -1,11 +1,13 @@
-// SSML, and any text through what is said for it: what is handed to espeak-ng has a place for each
-// character, inside of the source, and is well-formed markup where it claims to be.
+// SSML, and any text through what is said for it, cleaned as voice::speak_text() cleans it: what is
+// handed to espeak-ng has a place for each character, inside of the source, and is well-formed
+// markup where it claims to be.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <string>
 #include <string_view>
 
+#include "dam/script/script_text_internal.h"
 #include "tools/speech/text/ssml.h"
 #include "tools/speech/text/utterance.h"
 
@@ -15,6 +17,18 @@ using namespace animeme;
 
 void require(bool condition) {
   if (!condition) std::abort();
+}
+
+// UTF-8 without control characters, which no markup may have.
+std::string cleaned(std::string_view text) {
+  std::string out;
+  const std::string utf8 = dam::to_utf8(text);
+  for (std::string_view rest = utf8; !rest.empty();) {
+    const char32_t code = dam::take_code_point(rest);
+    const bool blank = code <= U' ' || code == 0x7F || code == 0xA0 || code == 0xFFFD;
+    dam::append_utf8(out, blank && code != U'\n' ? U' ' : code);
+  }
+  return out;
 }
 
 text::Speakers speakers() {
@@ -31,7 +45,7 @@ text::Speakers speakers() {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size > 4000) return 0;
-  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  const std::string text = cleaned({reinterpret_cast<const char*>(data), size});
   text::Helpers helpers;
   helpers.find = [](const std::string& language,
                     const std::string&) -> std::optional<text::Speaker> {
