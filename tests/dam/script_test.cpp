@@ -339,5 +339,34 @@ TEST(ScriptCorpus, AllSharedScriptsAreRead) {
   EXPECT_GE(files, 800u);
 }
 
+TEST(SpreadPhones, VowelsTakeLongerAndDiphthongsLongest) {
+  TimedLabel word;
+  word.start = 1;
+  word.end = 2;
+  std::vector<TimedLabel> out;
+  const std::vector<std::string> labels = {"B", "AY", "T", "IY"};
+  spread_phones(word, labels, out);
+  ASSERT_EQ(out.size(), 4u);
+  const double unit = 1 / (1 + 1.8 + 1 + 1.4);
+  double start = 1;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double share = i == 1 ? 1.8 : i == 3 ? 1.4 : 1;
+    EXPECT_NEAR(out[i].start, start, 1e-9) << i;
+    EXPECT_NEAR(out[i].end, start + share * unit, 1e-9) << i;
+    start = out[i].end;
+  }
+}
+
+// The header of ESPS ends within 50 lines.
+TEST(EspsLabels, AreToldByTheEndOfTheirHeader) {
+  for (const auto& [lines, is_one] : {std::pair(0, true), {49, true}, {50, false}}) {
+    std::string text;
+    for (int i = 0; i < lines; ++i) text += "comment " + std::to_string(i) + "\n";
+    text += "#\n0.5 121 B\n0.9 121 AA\n";
+    const auto timings = read_timings(text);
+    EXPECT_EQ(timings && timings->format == "esps", is_one) << lines;
+  }
+}
+
 }  // namespace script_test
 }  // namespace animeme::dam

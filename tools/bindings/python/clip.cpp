@@ -10,8 +10,8 @@ using Ints = py::array_t<std::int32_t>;
 
 // A mask of (frames, 68), or one of 68 for all frames.
 py::array_t<bool> mask_rows(const py::object& given, std::size_t frames) {
-  const auto array = py::array_t<bool, py::array::c_style | py::array::forcecast>::ensure(given);
-  if (!array) throw py::error_already_set();
+  const auto array =
+      array_from<py::array_t<bool, py::array::c_style | py::array::forcecast>>(given);
   const bool one = array.ndim() == 1 && std::size_t(array.shape(0)) == kFapColumns;
   const bool all = array.ndim() == 2 && std::size_t(array.shape(0)) == frames &&
                    std::size_t(array.shape(1)) == kFapColumns;
@@ -40,8 +40,7 @@ py::array_t<std::int64_t> numbers_of(const py::object& given, std::size_t frames
     return numbers;
   }
   const auto array =
-      py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>::ensure(given);
-  if (!array) throw py::error_already_set();
+      array_from<py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>>(given);
   if (array.ndim() != 1 || std::size_t(array.size()) != frames) {
     throw py::value_error("numbers is not (frames,)");
   }

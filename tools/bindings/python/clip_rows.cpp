@@ -20,8 +20,7 @@ std::int32_t whole(double value, const char* name) {
 std::vector<std::int32_t> whole_rows(const py::handle& given, std::size_t columns,
                                      const char* name) {
   using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
-  const auto array = Doubles::ensure(given);
-  if (!array) throw py::error_already_set();
+  const auto array = array_from<Doubles>(given);
   if (array.ndim() != 2 || std::size_t(array.shape(1)) != columns) {
     throw py::value_error(std::string(name) + " is not (frames, " + std::to_string(columns) + ")");
   }
@@ -107,9 +106,8 @@ fap::Sequence sequence_of(const Clip& clip) {
 fap::Frame frame_of(const py::handle& values, const py::handle& mask) {
   using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
   using Flags = py::array_t<bool, py::array::c_style | py::array::forcecast>;
-  const auto row = Doubles::ensure(values);
-  const auto flags = mask.is_none() ? Flags(py::ssize_t(kFapColumns)) : Flags::ensure(mask);
-  if (!row || !flags) throw py::error_already_set();
+  const auto row = array_from<Doubles>(values);
+  const auto flags = mask.is_none() ? Flags(py::ssize_t(kFapColumns)) : array_from<Flags>(mask);
   if (row.ndim() != 1 || std::size_t(row.size()) != kFapColumns) {
     throw py::value_error("values is not (68,)");
   }

@@ -42,10 +42,7 @@ py::object fraction_of(fap::Rate rate) {
 }
 
 std::span<const std::uint8_t> Bytes::span() const {
-  if (info_.ndim == 1 && info_.strides[0] != info_.itemsize) {
-    throw py::type_error("the bytes do not lie one behind the other");
-  }
-  return {static_cast<const std::uint8_t*>(info_.ptr), std::size_t(info_.size * info_.itemsize)};
+  return {static_cast<const std::uint8_t*>(view_.buf), std::size_t(view_.len)};
 }
 
 std::string path_of(const py::object& path) {

@@ -56,8 +56,7 @@ dam::Signal signal_of(const py::object& values, const py::object& names, const p
     return value_of(dam::to_signal(sequence_of(values.cast<const Clip&>())));
   }
   using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
-  const auto array = Doubles::ensure(values);
-  if (!array) throw py::error_already_set();
+  const auto array = array_from<Doubles>(values);
   dam::Signal signal;
   signal.rate = rate_of(rate);
   signal.names = control_names(names);

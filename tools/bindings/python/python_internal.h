@@ -88,15 +88,27 @@ py::array_t<T> array_of(std::vector<Element>&& values, std::vector<py::ssize_t> 
 fap::Rate rate_of(const py::handle& rate);
 py::object fraction_of(fap::Rate rate);
 
-/// Bytes of any object with a buffer; they live as long as this. Raises TypeError.
+/// Bytes of any object with a buffer, one behind the other in memory; they live as long as this.
+/// Raises TypeError, ValueError, BufferError.
 class Bytes {
  public:
-  explicit Bytes(const py::buffer& buffer) : info_(buffer.request()) {}
+  explicit Bytes(const py::buffer& buffer) {
+    // Rows that lie apart, or on top of each other, are not as many bytes as they say.
+    if (PyObject_GetBuffer(buffer.ptr(), &view_, PyBUF_SIMPLE) != 0) throw py::error_already_set();
+  }
+  Bytes(const Bytes&) = delete;
+  ~Bytes() { PyBuffer_Release(&view_); }
   std::span<const std::uint8_t> span() const;
 
  private:
-  py::buffer_info info_;
+  Py_buffer view_ = {};
 };
+
+/// An array of this kind. Raises what NumPy does (py::array_t::ensure() forgets it).
+template <class Array>
+Array array_from(const py::handle& given) {
+  return Array(py::reinterpret_borrow<py::object>(given));
+}
 
 /// A path of str or os.PathLike.
 std::string path_of(const py::object& path);
