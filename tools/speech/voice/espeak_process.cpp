@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <deque>
 #include <iterator>
 #include <list>
 #include <memory>
@@ -157,12 +158,6 @@ VoiceEvent unpack(const WireEvent& wire) {
   return event;
 }
 
-void append_samples(std::vector<std::int16_t>& samples, const std::string& bytes) {
-  const std::size_t before = samples.size(), count = bytes.size() / sizeof(std::int16_t);
-  samples.resize(before + count);
-  std::memcpy(samples.data() + before, bytes.data(), count * sizeof(std::int16_t));
-}
-
 VoiceInfo unpack_voice(const std::string& bytes) {
   std::vector<std::string> fields;
   for (std::size_t at = 0; at < bytes.size();) {
@@ -264,72 +259,79 @@ void keep_voices() {
 
 namespace {
 
-// Sound beyond this is counted before it is kept: an hour of it takes 160 MB, which a text that is
-// too long should not take only to be refused.
-constexpr std::int64_t kSecondsAtOnce = 600;
+// Sound comes in small pieces. Kept in blocks until all is there, it never takes twice its size, as
+// a vector that grows does: a text that is too long is refused after an hour of sound, 160 MB.
+class SoundBlocks {
+ public:
+  void add(const std::string& bytes) {
+    for (std::size_t at = 0; at + sizeof(std::int16_t) <= bytes.size();) {
+      if (blocks_.empty() || blocks_.back().size() == kBlockSamples) {
+        blocks_.emplace_back().reserve(kBlockSamples);
+      }
+      std::vector<std::int16_t>& block = blocks_.back();
+      const std::size_t had = block.size();
+      const std::size_t count =
+          std::min((bytes.size() - at) / sizeof(std::int16_t), kBlockSamples - had);
+      block.resize(had + count);
+      std::memcpy(block.data() + had, bytes.data() + at, count * sizeof(std::int16_t));
+      at += count * sizeof(std::int16_t);
+      size_ += count;
+    }
+  }
+  std::size_t size() const { return size_; }
+  // All of it; then there is none.
+  std::vector<std::int16_t> take() {
+    std::vector<std::int16_t> all;
+    all.reserve(size_);
+    for (; !blocks_.empty(); blocks_.pop_front()) {
+      all.insert(all.end(), blocks_.front().begin(), blocks_.front().end());
+    }
+    size_ = 0;
+    return all;
+  }
 
-struct SpeechSize {
-  std::size_t samples = 0, events = 0;
+ private:
+  static constexpr std::size_t kBlockSamples = std::size_t(1) << 20;
+  std::deque<std::vector<std::int16_t>> blocks_;
+  std::size_t size_ = 0;
 };
 
 // What comes from a child, text by text.
 class SpeechIntake {
  public:
-  // `known`: the sizes of the texts, or nothing.
-  SpeechIntake(const EspeakJob& job, std::vector<SpeechSize> known)
-      : job_(job), known_(std::move(known)) {
-    begin_text();
-  }
+  explicit SpeechIntake(const EspeakJob& job) : job_(job) { result.speech.emplace_back(); }
 
   bool receive(std::uint32_t tag, std::string bytes) {
     if (tag == kFailure) failure = std::move(bytes);
     if (tag == kSampleRate && bytes.size() == sizeof(std::int32_t)) {
       std::memcpy(&result.sample_rate, bytes.data(), bytes.size());
     }
-    if (tag == kTextEnd) begin_text();
-    if (tag == kSamples) take_samples(bytes);
-    if (tag == kEvents && bytes.size() == sizeof(WireEvent)) take_event(bytes);
-    const std::int64_t rate = std::max(result.sample_rate, 1);
-    too_long = total_.samples > std::size_t(job_.max_seconds * rate) ||
-               total_.events > std::size_t(kMostEventsPerSecond * (job_.max_seconds + 1));
-    if (!counting && known_.empty() && total_.samples > std::size_t(kSecondsAtOnce * rate)) {
-      counting = true;
-      for (RawSpeech& speech : result.speech) speech = {};
+    if (tag == kTextEnd) {
+      samples_ += sound_.size();
+      result.speech.back().samples = sound_.take();
+      result.speech.emplace_back();
     }
+    if (tag == kSamples) sound_.add(bytes);
+    if (tag == kEvents && bytes.size() == sizeof(WireEvent)) {
+      WireEvent wire;
+      std::memcpy(&wire, bytes.data(), sizeof wire);
+      result.speech.back().events.push_back(unpack(wire));
+      ++events_;
+    }
+    const std::int64_t rate = std::max(result.sample_rate, 1);
+    too_long = samples_ + sound_.size() > std::size_t(job_.max_seconds * rate) ||
+               events_ > std::size_t(kMostEventsPerSecond * (job_.max_seconds + 1));
     return !too_long;
   }
 
   EspeakResult result;
-  std::vector<SpeechSize> sizes;  // of each text
   std::string failure;
   bool too_long = false;
-  bool counting = false;  // nothing was kept
 
  private:
-  void begin_text() {
-    RawSpeech& speech = result.speech.emplace_back();
-    if (sizes.size() < known_.size()) {
-      speech.samples.reserve(known_[sizes.size()].samples);
-      speech.events.reserve(known_[sizes.size()].events);
-    }
-    sizes.emplace_back();
-  }
-  void take_samples(const std::string& bytes) {
-    if (!counting) append_samples(result.speech.back().samples, bytes);
-    sizes.back().samples += bytes.size() / sizeof(std::int16_t);
-    total_.samples += bytes.size() / sizeof(std::int16_t);
-  }
-  void take_event(const std::string& bytes) {
-    WireEvent wire;
-    std::memcpy(&wire, bytes.data(), sizeof wire);
-    if (!counting) result.speech.back().events.push_back(unpack(wire));
-    ++sizes.back().events;
-    ++total_.events;
-  }
-
   const EspeakJob& job_;
-  std::vector<SpeechSize> known_;
-  SpeechSize total_;
+  SoundBlocks sound_;  // of the text that is being spoken
+  std::size_t samples_ = 0, events_ = 0;
 };
 
 // `ended`: the process of the voice has ended before the text, though nothing was wrong with it.
@@ -358,16 +360,9 @@ Result<void> run_job(const EspeakJob& job, SpeechIntake& hearing, bool& ended) {
 }
 
 Result<EspeakResult> try_espeak(const EspeakJob& job, bool& ended) {
-  std::vector<SpeechSize> sizes;
-  {
-    SpeechIntake hearing(job, {});
-    if (auto ran = run_job(job, hearing, ended); !ran) return ran.error();
-    if (!hearing.counting) return std::move(hearing.result);
-    sizes = std::move(hearing.sizes);
-  }
-  SpeechIntake again(job, std::move(sizes));
-  if (auto ran = run_job(job, again, ended); !ran) return ran.error();
-  return std::move(again.result);
+  SpeechIntake hearing(job);
+  if (auto ran = run_job(job, hearing, ended); !ran) return ran.error();
+  return std::move(hearing.result);
 }
 
 }  // namespace
