@@ -7,6 +7,7 @@
 #include "tools/app/commands/damage.h"
 #include "tools/app/commands/fap_file.h"
 #include "tools/app/commands/plane_file.h"
+#include "tools/app/commands/track_option.h"
 #include "tools/formats/inspect/comparison.h"
 
 namespace animeme::tools {
@@ -14,6 +15,7 @@ namespace animeme::tools {
 namespace {
 
 struct CompareOptions {
+  std::string track;  // of several languages or people
   std::string a;
   std::string b;
   bool json = false;
@@ -207,6 +209,7 @@ Result<inspect::Comparison> compare(Side& a, Side& b) {
 }
 
 Result<int> run(const CompareOptions& options) {
+  const media::TrackScope tracks(wanted_track_of(options.track));
   Side a, b;
   if (auto ok = a.open(options.a); !ok) return ok.error();
   if (auto ok = b.open(options.b); !ok) return ok.error();
@@ -231,6 +234,7 @@ void add_options(OptionTable& cli, CompareOptions& options) {
           "BAPs")
       ->at_least_zero();
   cli.add("--json", options.json, "Print a machine-readable result");
+  add_track_option(cli, options.track);
 }
 
 }  // namespace

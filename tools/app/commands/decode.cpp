@@ -12,6 +12,7 @@
 #include "tools/app/commands/fap_file.h"
 #include "tools/app/commands/plane_file.h"
 #include "tools/app/commands/report.h"
+#include "tools/app/commands/track_option.h"
 #include "tools/formats/common/text.h"
 
 namespace animeme::tools {
@@ -19,6 +20,7 @@ namespace animeme::tools {
 namespace {
 
 struct DecodeOptions {
+  std::string track;  // of several languages or people
   std::string input;
   std::string output;
   std::string bap;
@@ -209,6 +211,7 @@ std::string wrong_use(const DecodeOptions& options) {
 }
 
 Result<int> run(DecodeOptions options) {
+  const media::TrackScope tracks(wanted_track_of(options.track));
   if (const std::string wrong = wrong_use(options); !wrong.empty()) return usage_error(wrong);
   if (!options.rate.empty()) {
     const Result<fap::Rate> rate = fap::parse_rate(options.rate);
@@ -272,6 +275,7 @@ void add_options(OptionTable& cli, DecodeOptions& options) {
       ->frame_rate();
   add_exact_option(cli, face.exact);
   cli.get("--coded")->excludes("--fill --expand --rate --from --to");
+  add_track_option(cli, options.track);
 }
 
 }  // namespace

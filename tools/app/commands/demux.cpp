@@ -7,6 +7,7 @@
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/damage.h"
 #include "tools/app/commands/outputs.h"
+#include "tools/app/commands/track_option.h"
 #include "tools/formats/common/json.h"
 #include "tools/formats/common/text.h"
 #include "tools/formats/media/container.h"
@@ -16,6 +17,7 @@ namespace animeme::tools {
 namespace {
 
 struct DemuxOptions {
+  std::string track;  // of several languages or people
   std::string input;
   std::string face;
   std::string audio;
@@ -108,6 +110,7 @@ std::string sort_outputs(DemuxOptions& options) {
 }
 
 Result<int> run(DemuxOptions options) {
+  const media::TrackScope tracks(wanted_track_of(options.track));
   if (const std::string wrong = sort_outputs(options); !wrong.empty()) return usage_error(wrong);
   if (options.face.empty() && options.audio.empty() && options.script.empty()) {
     return usage_error("nothing to do: name what to write, -o face.fba, .wav or .TextGrid");
@@ -167,6 +170,7 @@ void add_options(OptionTable& cli, DemuxOptions& options) {
   cli.add("--es-headers", options.headers,
           "Start the stream with its visual object headers (old decoders need none)");
   cli.add("--json", options.json, "Print a machine-readable summary");
+  add_track_option(cli, options.track);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "tools/app/commands/face_text.h"
 #include "tools/app/commands/outputs.h"
 #include "tools/app/commands/report.h"
+#include "tools/app/commands/track_option.h"
 #include "tools/formats/common/text.h"
 #include "tools/formats/files/cost.h"
 #include "tools/formats/files/files.h"
@@ -25,6 +26,7 @@ namespace animeme::tools {
 namespace {
 
 struct EditSettings {
+  std::string track;  // of several languages or people
   std::vector<std::string> inputs;
   std::string output;
   EditSpan span;
@@ -329,6 +331,7 @@ std::string wrong_use(const EditSettings& options, const Plan& plan) {
 }
 
 Result<int> run(EditSettings options) {
+  const media::TrackScope tracks(wanted_track_of(options.track));
   Plan plan;
   if (auto ok = read_options(options, plan); !ok) return usage_error(ok.error().message);
   if (const std::string wrong = wrong_use(options, plan); !wrong.empty()) return usage_error(wrong);
@@ -448,6 +451,7 @@ void add_options(OptionTable& cli, EditSettings& options) {
   cli.add("--sound", options.sound_file, "Sound file in place of the sound of the inputs");
   cli.add("--no-sound", options.no_sound, "Leave the sound out")->excludes("--sound");
   add_subtitles_option(cli, options.subtitles);
+  add_track_option(cli, options.track);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "tools/app/commands/report.h"
 #include "tools/app/commands/said_visemes.h"
 #include "tools/app/commands/script_options.h"
+#include "tools/app/commands/track_option.h"
 #include "tools/formats/exchange/arkit.h"
 #include "tools/formats/exchange/visemes.h"
 #include "tools/formats/media/container.h"
@@ -283,6 +284,7 @@ Result<int> write_visemes(const ExportOptions& options, const std::string& what,
 }  // namespace
 
 Result<int> run(const ExportOptions& given) {
+  const media::TrackScope tracks(wanted_track_of(given.track));
   ExportOptions options = given;
   if (options.output.empty() && !options.format.empty()) options.output = "-";
   if (options.output.empty()) return usage_error("name what to write: -o talk.csv");

@@ -4,6 +4,7 @@
 #include "tools/app/commands/options.h"
 #include "tools/app/commands/said_visemes.h"
 #include "tools/app/commands/script_options.h"
+#include "tools/app/commands/track_option.h"
 
 namespace animeme::tools {
 
@@ -75,6 +76,7 @@ void add_options(OptionTable& cli, ExportOptions& options) {
                            "--normals", "--sound", "--mouth"}) {
     options.of_heads.push_back(cli.get(name));
   }
+  add_track_option(cli, options.track);
 }
 
 }  // namespace animeme::tools

@@ -13,6 +13,7 @@ namespace animeme::tools {
 
 /// What was said on the command line.
 struct ExportOptions {
+  std::string track;                      ///< --track
   std::string input;                      ///< the clip
   std::string output;                     ///< --output
   std::string audio;                      ///< --audio

@@ -209,7 +209,8 @@ Result<int> write_media(const std::string& path, const media::MuxInput& input,
   Result<media::MuxResult> written = media::write_container(path, input, options);
   progress.clear();
   for (const std::string& text : odd) {
-    if (sound != SoundState::reported) warn(*input.audio_file + ": " + text);
+    if (sound == SoundState::reported) continue;
+    warn((input.audio_file != nullptr ? *input.audio_file : path) + ": " + text);
   }
   if (!written) return written.error().in_file(path);
   if (written->stopped) {

@@ -72,6 +72,14 @@ Json describe_track(const media::TrackInfo& track) {
     json["timescale"] = track.timescale;
     json["profile"] = track.visual_profile;
   }
+  const media::TrackLabels& labels = track.labels;
+  if (!labels.empty()) {
+    const std::string language = labels.language.empty() ? labels.code : labels.language;
+    if (track.kind != media::TrackKind::text && !language.empty()) json["language"] = language;
+    if (!labels.language.empty()) json["language_tag"] = labels.language;
+    if (!labels.speaker.empty()) json["speaker"] = labels.speaker;
+    json["default"] = track.is_default;
+  }
   return json;
 }
 

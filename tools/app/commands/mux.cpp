@@ -13,6 +13,7 @@
 #include "tools/app/commands/fap_file.h"
 #include "tools/app/commands/plane_file.h"
 #include "tools/app/commands/preview.h"
+#include "tools/app/commands/track_option.h"
 #include "tools/formats/files/cost.h"
 #include "tools/formats/media/container.h"
 #include "tools/formats/programs/scratch_folder.h"
@@ -34,6 +35,7 @@ struct MuxOptions {
   bool subtitles = false;
   SoundSettings sound;
   media::MuxOptions mux;
+  std::vector<std::string> tracks;  // --track
 };
 
 bool in_segments(const std::string& path) {
@@ -163,7 +165,113 @@ Result<fba::AccessUnits> read_whole_face(const MuxOptions& options) {
   return for_segments(std::move(*units), coded, options);
 }
 
+// A language or a person of --track: files, and what tells them apart.
+struct MuxTrack {
+  std::string face, audio, words;  // paths; empty: none
+  media::TrackLabels labels;
+};
+
+Result<MuxTrack> read_mux_track(const std::string& text) {
+  MuxTrack track;
+  std::string labels, rest = text;
+  while (!rest.empty()) {
+    const std::size_t comma = std::min(rest.find(','), rest.size());
+    const std::string one = rest.substr(0, comma);
+    rest.erase(0, comma + 1);
+    const std::size_t equals = one.find('=');
+    const std::string name = one.substr(0, equals);
+    std::string* place = name == "face"    ? &track.face
+                         : name == "audio" ? &track.audio
+                         : name == "words" ? &track.words
+                                           : nullptr;
+    if (place == nullptr) {
+      labels += (labels.empty() ? "" : ",") + one;
+    } else if (equals == std::string::npos || equals + 1 == one.size() || !place->empty()) {
+      return make_error(Code::invalid_argument,
+                        "'" + one + "' needs one file behind " + name + "=");
+    } else {
+      *place = one.substr(equals + 1);
+    }
+  }
+  if (track.face.empty() && track.audio.empty() && track.words.empty()) {
+    return make_error(Code::invalid_argument,
+                      "'" + text + "' names no file; write face=, audio= or words=");
+  }
+  if (labels.empty()) {
+    return make_error(Code::invalid_argument,
+                      "'" + text + "' tells no language and no speaker; write lang= or speaker=");
+  }
+  const auto told = read_track_labels(labels);
+  if (!told) return told.error();
+  track.labels = *told;
+  return track;
+}
+
+// What a part of the file is written from; the input refers to it.
+struct MuxPart {
+  fba::AccessUnits face;
+  std::string audio;
+  std::optional<media::EncodedAudio> coded;
+  std::vector<media::TextTrack> texts;
+};
+
+Result<void> read_part(const MuxTrack& track, const MuxOptions& options, MuxPart& part,
+                       media::MuxInput& input) {
+  input.labels = track.labels;
+  if (!track.face.empty()) {
+    MuxOptions one = options;
+    one.face = track.face;
+    auto units = read_whole_face(one);
+    if (!units) return units.error().in_file(track.face);
+    part.face = std::move(*units);
+    input.face = &part.face;
+  }
+  if (!track.audio.empty() && options.sound.codec == "copy") {
+    auto coded = media::read_encoded_audio(track.audio);
+    if (!coded) return coded.error().in_file(track.audio);
+    input.encoded = &part.coded.emplace(std::move(*coded));
+  } else if (!track.audio.empty()) {
+    part.audio = track.audio;
+    input.audio_file = &part.audio;
+  }
+  if (!track.words.empty()) {
+    speech::ScriptInput reading;
+    if (!track.labels.language.empty()) reading.language = track.labels.language;
+    const auto script = speech::read_script(track.words, reading, terminal_log());
+    if (!script) return script.error();
+    part.texts = speech::carried_texts(*script, track.labels.language);
+  } else if (!track.face.empty()) {
+    part.texts = speech::carried_tracks(track.face, terminal_log());
+  }
+  if (shows_captions(options.output, options.subtitles)) speech::add_captions(part.texts);
+  input.texts = &part.texts;
+  return {};
+}
+
+Result<int> write_tracks(MuxOptions& options) {
+  std::vector<MuxPart> parts(options.tracks.size());
+  media::MuxInput input;
+  input.more.resize(options.tracks.size() - 1);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto track = read_mux_track(options.tracks[i]);
+    if (!track) return track.error();
+    media::MuxInput& place = i == 0 ? input : input.more[i - 1];
+    if (auto read = read_part(*track, options, parts[i], place); !read) return read.error();
+  }
+  options.mux.audio = audio_settings(options.sound, options.output);
+  options.mux.text_track = media::TextTrackType::metadata;
+  if (options.video_track) options.mux.face_track = media::FaceTrackType::video;
+  return write_media(options.output, input, options.mux);
+}
+
 Result<int> run(MuxOptions options) {
+  if (options.face.empty() == options.tracks.empty()) {
+    return usage_error("name one face to write, or each with its language by --track lang=");
+  }
+  if (!options.tracks.empty()) {
+    if (!options.preview.empty()) return usage_error("--preview is for files of one face");
+    return write_tracks(options);
+  }
   const Result<LongFace> face = read_long_face(options);
   if (!face) return face.error().in_file(options.face);
   std::optional<fba::UnitReader> reader;
@@ -200,13 +308,21 @@ Result<int> run(MuxOptions options) {
 }
 
 void add_options(OptionTable& cli, MuxOptions& options) {
-  cli.add("face", options.face, "FAP text, FBA stream, or a container with a face")->required();
+  cli.add("face", options.face, "FAP text, FBA stream, or a container with a face");
   cli.add("audio", options.audio, "Sound in any format that FFmpeg reads; default: none");
   cli.add("-o,--output", options.output,
           "File to write: .mp4, .mkv, .ts; .m3u8 (HLS) or .mpd (DASH) with a folder of "
           "segments beside it")
       ->output("")
       ->required();
+  cli.add(
+         "--track", options.tracks,
+         "A language or a person of a file with several, in place of the arguments: "
+         "lang=de,speaker=Ann,face=de.fba,audio=de.wav,words=de.vtt; may be repeated, the first is "
+         "the default (.mp4 .mkv)")
+      ->value("LABELS,FILES")
+      ->check(problem_of<read_mux_track>)
+      ->one_at_a_time();
   add_stream_options(cli, options.stream);
   cli.add("--copy", options.copy,
           "HLS and DASH: keep the stream however long its intra intervals are; by default it "
@@ -245,6 +361,8 @@ const Command kMux{"mux", "Mux a face and sound into one file",
                    "  animeme mux talk.mp4 talk.mp4 --audio-codec copy -o talk.ts\n"
                    "  animeme mux talk.fba voice.wav --pes-seconds 0.4 -o talk.ts\n"
                    "  animeme mux talk.fba voice.wav --fragment-seconds 4 -o talk.m3u8\n"
+                   "  animeme mux --track lang=en,face=en.fba,audio=en.wav --track "
+                   "lang=de,face=de.fba,audio=de.wav -o both.mp4\n"
                    "  animeme mux talk.fba voice.wav --systems -o scene.mp4\n"
                    "  animeme mux talk.fba voice.wav -o talk.mp4 --preview talk.preview.mp4",
                    set_up<MuxOptions>};

@@ -6,6 +6,7 @@
 #include "tools/app/commands/fap_names.h"
 #include "tools/app/commands/report.h"
 #include "tools/app/commands/script_options.h"
+#include "tools/app/commands/track_option.h"
 #include "tools/speech/talking/voice_file.h"
 #include "tools/view/plot/clips.h"
 
@@ -14,6 +15,7 @@ namespace animeme::tools {
 namespace {
 
 struct PlotOptions {
+  std::string track;  // of several languages or people
   std::string a;
   std::string b;
   std::string output;
@@ -27,6 +29,7 @@ struct PlotOptions {
 };
 
 Result<int> run(const PlotOptions& options) {
+  const media::TrackScope tracks(wanted_track_of(options.track));
   const Result<std::vector<int>> faps = fap_numbers(options.faps);
   if (!faps) return faps.error();
   if (options.to > 0 && options.to <= options.from) {
@@ -95,6 +98,7 @@ void add_options(OptionTable& cli, PlotOptions& options) {
   add_length_option(cli, options.length);
   cli.add("--from", options.from, "Start of the picture in seconds")->at_least_zero();
   cli.add("--to", options.to, "End of the picture in seconds")->above_zero();
+  add_track_option(cli, options.track);
 }
 
 }  // namespace

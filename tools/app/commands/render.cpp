@@ -12,6 +12,7 @@
 #include "tools/app/commands/report.h"
 #include "tools/app/commands/said_visemes.h"
 #include "tools/app/commands/script_options.h"
+#include "tools/app/commands/track_option.h"
 #include "tools/formats/files/cost.h"
 #include "tools/speech/talking/voice_file.h"
 #include "tools/view/render/scene.h"
@@ -27,6 +28,7 @@ constexpr int kLargestPicture = 8192;  // pixels a side, a whole sheet
 constexpr int kMostPictures = 400;
 
 struct RenderOptions {
+  std::string track;  // of several languages or people
   LengthLimit length;
   std::string input;
   std::string output;
@@ -228,6 +230,7 @@ Result<int> draw_all(const RenderOptions& options) {
 }
 
 Result<int> run(const RenderOptions& options) {
+  const media::TrackScope tracks(wanted_track_of(options.track));
   AtStep step(Step::rendering);
   Result<int> code = draw_all(options);
   std::error_code unknown;
@@ -292,6 +295,7 @@ void add_options(OptionTable& cli, RenderOptions& options) {
       ->show_default();
   cli.add("--audio-bitrate", options.audio_bit_rate, "Video: bits per second of the sound")
       ->between(6000, 320000);
+  add_track_option(cli, options.track);
 }
 
 }  // namespace

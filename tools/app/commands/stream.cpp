@@ -10,6 +10,7 @@
 #include "tools/app/commands/mood_options.h"
 #include "tools/app/commands/report.h"
 #include "tools/app/commands/stream_options.h"
+#include "tools/app/commands/track_option.h"
 #include "tools/formats/media/container.h"
 #include "tools/live/sessions/address.h"
 #include "tools/live/sessions/event_output.h"
@@ -244,6 +245,7 @@ Result<int> send(const StreamOptions& options, live::Program& program, live::Sin
 }  // namespace
 
 Result<int> run(StreamOptions& options) {
+  const media::TrackScope tracks(wanted_track_of(options.track));
   if (const std::string bad = bad_options(options); !bad.empty()) return usage_error(bad);
   Result<fap::Rate> rate = fap::parse_rate(options.rate);
   if (!rate) return rate.error();

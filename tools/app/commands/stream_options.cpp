@@ -6,6 +6,7 @@
 #include "tools/app/commands/motion_options.h"
 #include "tools/app/commands/options.h"
 #include "tools/app/commands/spoken_options.h"
+#include "tools/app/commands/track_option.h"
 
 namespace animeme::tools {
 
@@ -161,6 +162,7 @@ void add_options(OptionTable& cli, StreamOptions& options) {
   cli.add("--fast", options.fast, "Send as fast as possible instead of in real time");
   cli.add("--stats", options.stats, "Print statistics once per second");
   cli.add("--json", options.json, "Print a machine-readable summary at the end");
+  add_track_option(cli, options.track);
   cli.show_in_help_all(
       "Voices, coding and transport",
       "--tier --speaker --speak-marks --script-format --max-seconds --speed --pitch --liveliness "

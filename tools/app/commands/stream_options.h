@@ -18,6 +18,7 @@ struct OptionTable;
 
 /// What was said on the command line.
 struct StreamOptions {
+  std::string track;             ///< --track
   std::string input;             ///< the clip
   std::vector<std::string> to;   ///< --to
   std::vector<std::string> sdp;  ///< --sdp

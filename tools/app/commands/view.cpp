@@ -12,6 +12,7 @@
 #include "tools/app/commands/said_visemes.h"
 #include "tools/app/commands/script_options.h"
 #include "tools/app/commands/shown_heads.h"
+#include "tools/app/commands/track_option.h"
 #include "tools/formats/common/text.h"
 #include "tools/speech/talking/voice_file.h"
 #include "tools/view/viewer/viewer.h"
@@ -26,6 +27,7 @@ constexpr int kLeastKilobits = 12;        // a second; Opus is not worth hearing
 constexpr int kMostKilobits = 40;         // and with more not better
 
 struct ViewOptions {
+  std::string track;  // of several languages or people
   std::string first;
   std::string second;
   std::string output;
@@ -103,6 +105,7 @@ void warn_of_size(const viewer::Page& page, std::size_t size, double seconds) {
 }
 
 Result<int> run(const ViewOptions& options) {
+  const media::TrackScope tracks(wanted_track_of(options.track));
   if (const std::string problem = problem_of(options.heads); !problem.empty()) {
     return usage_error(problem);
   }
@@ -172,6 +175,7 @@ void add_options(OptionTable& cli, ViewOptions& options) {
   add_sound_options(cli, options.sound, false);
   add_length_option(cli, options.length);
   add_heads_options(cli, options.heads.heads, options.heads.rest);
+  add_track_option(cli, options.track);
 }
 
 }  // namespace

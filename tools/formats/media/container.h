@@ -24,6 +24,7 @@
 #include "codec/decode/repair.h"
 #include "fap/result.h"
 #include "tools/formats/media/encoded_audio.h"
+#include "tools/formats/media/track_labels.h"
 
 /// Sound, containers and live transports.
 namespace animeme::media {
@@ -136,6 +137,8 @@ struct TrackInfo {
   std::vector<std::uint8_t> face_config;  ///< face; empty: in band
   std::string name;                       ///< text: as TextTrack::name
   std::string language;                   ///< text: as TextTrack::language
+  TrackLabels labels;                     ///< language and speaker, of any kind
+  bool is_default = false;                ///< players choose it
 };
 
 /// Contents of a file, from its headers.

@@ -15,6 +15,7 @@
 #include "tools/formats/media/detail/tracks/mux_parts.h"
 #include "tools/formats/media/detail/tracks/plane_cutter.h"
 #include "tools/formats/media/detail/tracks/text_samples.h"
+#include "tools/formats/media/detail/tracks/track_names.h"
 #include "tools/formats/media/detail/tracks/unit_facts.h"
 #include "tools/formats/media/detail/ts/ts_pmt.h"
 
@@ -28,6 +29,7 @@ struct FileType {
   bool face, aac, opus, h264, vp9, text;
 
   bool is_mp4() const { return std::string_view(muxer) == "mp4"; }
+  bool is_mkv() const { return std::string_view(muxer) == "matroska"; }
   bool is_ts() const { return std::string_view(muxer) == "mpegts"; }
   bool is_segments() const { return std::string_view(muxer) == "segments"; }
   bool takes(AudioCodec codec) const { return codec == AudioCodec::opus ? opus : aac; }
@@ -62,6 +64,14 @@ Error unsupported(std::string message) { return make_error(Code::unsupported, st
 
 Result<void> check_type(const FileType& type, const MuxInput& input, const MuxOptions& options) {
   const std::string name(type.extension);
+  const bool labelled = !input.more.empty() || !input.labels.empty();
+  if (labelled && (options.systems || type.is_ts() || !type.face)) {
+    return unsupported(
+        "several languages or speakers go into plain .mp4 and .mkv, .m3u8 and .mpd files only");
+  }
+  for (const MuxInput& further : input.more) {
+    if (auto legal = check_type(type, further, options); !legal) return legal;
+  }
   if (options.systems && name != ".mp4") {
     return unsupported("a Systems presentation is an .mp4 file");
   }
@@ -114,53 +124,142 @@ fba::AccessUnits head_of(const fba::UnitReader& units) {
   return head;
 }
 
-Result<MuxResult> write_streams(const std::string& path, const FileType& type,
-                                const MuxInput& input, const MuxOptions& options) {
-  Result<std::optional<SoundSource>> sound = open_sound(input, options);
-  if (!sound) return sound.error();
-  Result<std::unique_ptr<Muxer>> opened = Muxer::open(path, type.muxer, filter_of(type, input));
-  if (!opened) return opened.error();
-  Muxer& muxer = **opened;
-  std::vector<std::unique_ptr<TrackFeed>> feeds;
-  if (input.video != nullptr) {
-    if (auto added = muxer.add_video(*input.video); !added) return added.error();
-    feeds.push_back(video_feed(muxer, *input.video));
-  }
+/// A language, or all of a file without any, on its way to the muxer.
+struct WrittenPart {
+  const MuxInput* input = nullptr;
+  std::optional<SoundSource> sound;
   fba::AccessUnits shared;
-  const fba::AccessUnits* face = input.face;
-  if (face != nullptr && type.is_ts() && options.shared_seconds > 0) {
-    shared = share_packets(*face, options.shared_seconds);
-    face = &shared;
+  const fba::AccessUnits* face = nullptr;
+  std::vector<TextSamples> texts;
+};
+
+using Feeds = std::vector<std::unique_ptr<TrackFeed>>;
+
+Result<void> add_face(Muxer& muxer, WrittenPart& part, const FileType& type,
+                      const MuxOptions& options, Feeds& feeds, int& faces) {
+  const MuxInput& input = *part.input;
+  part.face = input.face;
+  if (part.face != nullptr && type.is_ts() && options.shared_seconds > 0) {
+    part.shared = share_packets(*part.face, options.shared_seconds);
+    part.face = &part.shared;
   }
   if (input.face_units != nullptr) {
-    shared = head_of(*input.face_units);
-    face = &shared;
+    part.shared = head_of(*input.face_units);
+    part.face = &part.shared;
     const fba::UnitSummary& facts = input.face_units->summary();
-    auto added = muxer.add_face(shared, BufferFacts{facts.largest, facts.peak_bits});
-    if (!added) return added.error();
-    feeds.push_back(face_feed(muxer, *input.face_units));
-  } else if (face != nullptr) {
-    if (auto added = muxer.add_face(*face, buffer_facts(*face)); !added) return added.error();
-    feeds.push_back(face_feed(muxer, *face));
+    auto added =
+        muxer.add_face(part.shared, BufferFacts{facts.largest, facts.peak_bits}, input.labels);
+    if (!added) return added;
+    feeds.push_back(face_feed(muxer, *input.face_units, faces++));
+  } else if (part.face != nullptr) {
+    auto added = muxer.add_face(*part.face, buffer_facts(*part.face), input.labels);
+    if (!added) return added;
+    feeds.push_back(face_feed(muxer, *part.face, faces++));
   }
-  const AudioFormat* format = *sound ? &(*sound)->format() : nullptr;
-  if (format != nullptr) {
-    auto added = muxer.add_sound(*format, (*sound)->bit_rate());
-    if (!added) return added.error();
-    feeds.push_back(sound_feed(muxer, **sound, (*sound)->seconds()));
-  }
-  std::vector<TextSamples> texts;
-  for (const TextTrack& track : input.texts != nullptr ? *input.texts : std::vector<TextTrack>()) {
-    texts.push_back(type.is_mp4() ? mov_text_samples(track) : subrip_samples(track));
-  }
-  for (const TextSamples& track : texts) {
-    Result<int> added = muxer.add_text(track);
+  return {};
+}
+
+Result<void> add_sound(Muxer& muxer, WrittenPart& part, Feeds& feeds, int& sounds) {
+  if (!part.sound) return {};
+  auto added = muxer.add_sound(part.sound->format(), part.sound->bit_rate(), part.input->labels);
+  if (!added) return added;
+  feeds.push_back(sound_feed(muxer, *part.sound, part.sound->seconds(), sounds++));
+  return {};
+}
+
+Result<void> add_texts(Muxer& muxer, WrittenPart& part, const FileType& type, Feeds& feeds) {
+  if (part.input->texts == nullptr) return {};
+  for (const TextTrack& track : *part.input->texts)
+    part.texts.push_back(type.is_mp4() ? mov_text_samples(track) : subrip_samples(track));
+  for (const TextSamples& track : part.texts) {
+    TrackLabels labels = part.input->labels;
+    labels.language = tag_of_text(track.language, labels.language);
+    Result<int> added = muxer.add_text(track, labels);
     if (!added) return added.error();
     feeds.push_back(text_feed(muxer, track, *added));
   }
+  return {};
+}
+
+// Of all tracks in their order; none where a file tells of no language and no speaker.
+std::vector<TrackMark> marks_of(const std::vector<WrittenPart>& parts) {
+  if (parts.size() == 1 && parts.front().input->labels.empty()) return {};
+  std::vector<TrackMark> marks;
+  // libavformat's own: 0 pictures, 1 sounds, 3 texts.
+  constexpr unsigned kFaces = 10, kSounds = 40, kTexts = 100, kMostGroups = 30;
+  std::vector<std::string> speakers, texts;
+  const auto group = [&](std::vector<std::string>& known, unsigned first, const std::string& what) {
+    const auto at = std::find(known.begin(), known.end(), what);
+    const auto number = unsigned(at - known.begin());
+    if (at == known.end()) known.push_back(what);
+    return number < kMostGroups ? first + number : 0;
+  };
+  if (parts.front().input->video != nullptr) marks.emplace_back();
+  for (const WrittenPart& part : parts) {
+    const TrackLabels& labels = part.input->labels;
+    if (part.face != nullptr)
+      marks.push_back({labels.language, group(speakers, kFaces, labels.speaker)});
+  }
+  for (const WrittenPart& part : parts) {
+    const TrackLabels& labels = part.input->labels;
+    if (part.sound) marks.push_back({labels.language, group(speakers, kSounds, labels.speaker)});
+  }
+  for (const WrittenPart& part : parts) {
+    const TrackLabels& labels = part.input->labels;
+    for (const TextSamples& text : part.texts) {
+      marks.push_back({tag_of_text(text.language, labels.language),
+                       group(texts, kTexts, text.name + "\n" + labels.speaker)});
+    }
+  }
+  return marks;
+}
+
+// All faces, then all sounds, then all texts; those of `input` first.
+Result<void> add_tracks(Muxer& muxer, std::vector<WrittenPart>& parts, const FileType& type,
+                        const MuxOptions& options, Feeds& feeds) {
+  const MuxInput& first = *parts.front().input;
+  if (first.video != nullptr) {
+    if (auto added = muxer.add_video(*first.video); !added) return added;
+    feeds.push_back(video_feed(muxer, *first.video));
+  }
+  int faces = 0, sounds = 0;
+  for (WrittenPart& part : parts) {
+    if (auto added = add_face(muxer, part, type, options, feeds, faces); !added) return added;
+  }
+  for (WrittenPart& part : parts) {
+    if (auto added = add_sound(muxer, part, feeds, sounds); !added) return added;
+  }
+  for (WrittenPart& part : parts) {
+    if (auto added = add_texts(muxer, part, type, feeds); !added) return added;
+  }
+  return {};
+}
+
+Result<MuxResult> write_streams(const std::string& path, const FileType& type,
+                                const MuxInput& input, const MuxOptions& options) {
+  std::vector<WrittenPart> parts(1 + input.more.size());
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    parts[i].input = i == 0 ? &input : &input.more[i - 1];
+    Result<std::optional<SoundSource>> sound = open_sound(*parts[i].input, options);
+    if (!sound) return sound.error();
+    parts[i].sound = std::move(*sound);
+  }
+  Result<std::unique_ptr<Muxer>> opened = Muxer::open(path, type.muxer, filter_of(type, input));
+  if (!opened) return opened.error();
+  Muxer& muxer = **opened;
+  Feeds feeds;
+  if (auto added = add_tracks(muxer, parts, type, options, feeds); !added) return added.error();
   av::Options header;
   if (type.is_mp4()) {
-    set_mp4_options({face, visual_profile(input), format, input.video}, header);
+    Mp4Contents contents{nullptr, 0xFF, nullptr, input.video};
+    for (const WrittenPart& part : parts) {
+      if (contents.face == nullptr && part.face != nullptr) {
+        contents.face = part.face;
+        contents.visual_profile = visual_profile(*part.input);
+      }
+      if (contents.sound == nullptr && part.sound) contents.sound = &part.sound->format();
+    }
+    set_mp4_options(contents, header);
     if (options.fragmented) {
       set_fragment_options("frag_keyframe", options.fragment_seconds, header);
     } else {
@@ -175,13 +274,19 @@ Result<MuxResult> write_streams(const std::string& path, const FileType& type,
   if (type.is_mp4()) {
     auto completed = complete_mp4(
         path, options.faststart || options.fragmented ? Layout::indexed : Layout::as_written,
-        {options.face_track, options.text_track});
+        {options.face_track, options.text_track, marks_of(parts)});
     if (!completed) return completed.error();
+  }
+  if (type.is_mkv()) {
+    if (auto tagged = put_language_tags(path); !tagged) return tagged.error();
   }
   if (type.is_ts()) {
     if (auto filled = fill_up_ts(path); !filled) return filled.error();
   }
-  return MuxResult{done->seconds, *sound ? (*sound)->seconds_so_far() : 0, done->stopped};
+  double sound_seconds = 0;
+  for (const WrittenPart& part : parts)
+    if (part.sound) sound_seconds = std::max(sound_seconds, part.sound->seconds_so_far());
+  return MuxResult{done->seconds, sound_seconds, done->stopped};
 }
 
 Result<EncodedAudio> read_all(SoundSource& source) {

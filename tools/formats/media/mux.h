@@ -22,6 +22,7 @@
 #include "tools/formats/media/encoded_audio.h"
 #include "tools/formats/media/pcm.h"
 #include "tools/formats/media/text_track.h"
+#include "tools/formats/media/track_labels.h"
 #include "tools/formats/media/video.h"
 
 namespace animeme::media {
@@ -47,6 +48,13 @@ struct MuxInput {
   /// by default; see also MuxOptions::text_track. For files of takes_text(), not for Systems
   /// presentations. Cleaned by clean_text().
   const std::vector<TextTrack>* texts = nullptr;
+  /// Language of face, sound and texts, and who speaks; empty: the file does not tell.
+  TrackLabels labels = {};
+  /// The same in further languages, or of further people: each a face, a sound, texts, or any of
+  /// them, with labels of its own. Faces of one person stand for each other, as do its sounds and
+  /// its texts of one name (mp4: alternate groups); the first of a kind is the default. Neither
+  /// pictures nor another list in them. In .mp4, .mkv, .m3u8 and .mpd.
+  std::vector<MuxInput> more = {};
   /// Visual profile and level for the file's own table of contents (mp4 `iods`): 0x61..0x64.
   /// 0: as in the face's configuration, 0x61 if that has none.
   std::uint8_t visual_profile = 0;
@@ -125,7 +133,8 @@ AudioCodec usual_codec(const std::string& path);
 /// that the codec lacks is resampled (see AudioEncoder).
 /// Errors: invalid_argument (nothing to write; no units; configuration not of a face; an empty unit
 /// or packet; times not ascending or negative; durations not positive; empty sound; bit rate; sound
-/// given twice; fragment length; cues of a text not ascending, or without a length), those of
+/// given twice; fragment length; cues of a text not ascending, or without a length; a label that is
+/// no tag), those of
 /// AudioReader for a sound file, io (folder missing, disk full ...), unsupported (this FFmpeg lacks
 /// the encoder; Opus in a Systems presentation), out_of_range (memory).
 Result<MuxResult> write_mp4(const std::string& path, const MuxInput& input,

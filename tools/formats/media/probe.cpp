@@ -7,6 +7,7 @@
 #include "tools/formats/media/detail/tracks/face_header.h"
 #include "tools/formats/media/detail/tracks/face_track.h"
 #include "tools/formats/media/detail/tracks/text_samples.h"
+#include "tools/formats/media/detail/tracks/track_names.h"
 
 namespace animeme::media {
 namespace {
@@ -111,6 +112,8 @@ ContainerInfo look_at(Input& input) {
   settle(file, tracks);
   for (unsigned i = 0; i < file.nb_streams; ++i) {
     info.tracks.push_back(describe(*file.streams[i], tracks[int(i)]));
+    info.tracks.back().labels = input.labels(*file.streams[i]);
+    info.tracks.back().is_default = (file.streams[i]->disposition & AV_DISPOSITION_DEFAULT) != 0;
   }
   info.duration = to_seconds(file.duration, {1, AV_TIME_BASE});
   info.bytes = input.size();
@@ -146,8 +149,10 @@ Result<ContainerInfo> probe_playlist(const std::string& path) {
     TrackInfo& track = all.tracks.emplace_back();
     track.kind = TrackKind::text;
     track.codec = "webvtt";
-    track.name = clean_text(text.name);
-    track.language = text.language.empty() ? "und" : clean_text(text.language);
+    const std::string name = clean_text(text.name), tag = clean_text(text.language);
+    track.name = name_without_speaker(name);
+    track.language = tag.empty() ? "und" : tag;
+    track.labels = labels_of_text(name, tag);
     all.bytes += std::int64_t(text.file.size());
   }
   return all;
@@ -161,11 +166,13 @@ const char* name_of(TrackKind kind) {
 }
 
 Result<ContainerInfo> probe(const std::string& path) {
+  const TrackScope all({});
   return av::guarded(path,
                      [&] { return is_playlist(path) ? probe_playlist(path) : probe_from(path); });
 }
 
 Result<ContainerInfo> probe(std::span<const std::uint8_t> file) {
+  const TrackScope all({});
   return av::guarded([&] { return probe_from(file); });
 }
 

@@ -6,6 +6,7 @@
 #include "tools/formats/media/detail/segments/presentation.h"
 #include "tools/formats/media/detail/sound/sound_start.h"
 #include "tools/formats/media/detail/tracks/face_track.h"
+#include "tools/formats/media/detail/tracks/track_names.h"
 #include "tools/formats/media/detail/tracks/unit_collector.h"
 
 namespace animeme::media {
@@ -96,7 +97,8 @@ Error ContainerReader::no_face() const {
 Result<void> ContainerReader::take(const AVPacket& packet) {
   const int index = packet.stream_index;
   tracks_.decide(packet);
-  if (face_ < 0 && tracks_[index].state == FaceTrack::State::yes) {
+  // Of several faces the first, wherever its packets lie.
+  if (face_ < 0 && index == tracks_.first() && tracks_[index].state == FaceTrack::State::yes) {
     face_ = index;
     units_.emplace(options_, tracks_[index].config, result_.format == "mpegts");
     if (take_) units_->pass_on(take_);
@@ -251,6 +253,7 @@ Result<Container> read_playlist(const std::string& path, const ReadOptions& opti
   if (!presentation) return presentation.error();
   const std::vector<std::uint8_t>* face = find_rendition(*presentation, TrackKind::face);
   if (face == nullptr) {
+    if (!wanted_track().empty()) return no_wanted_track();
     return make_error(Code::not_found, "the presentation has no face animation track");
   }
   const std::vector<std::uint8_t>* sound = find_rendition(*presentation, TrackKind::audio);

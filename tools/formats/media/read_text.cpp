@@ -6,6 +6,7 @@
 #include "tools/formats/media/detail/sound/sound_start.h"
 #include "tools/formats/media/detail/tracks/face_track.h"
 #include "tools/formats/media/detail/tracks/text_samples.h"
+#include "tools/formats/media/detail/tracks/track_names.h"
 #include "tools/formats/media/text_track.h"
 
 namespace animeme::media {
@@ -141,6 +142,9 @@ Result<std::vector<TextTrack>> read_playlist_text(const std::string& path,
   if (!presentation) return presentation.error();
   std::vector<TextTrack> tracks;
   for (const PresentedText& text : presentation->texts) {
+    const std::string tag = clean_text(text.language, kLongestTrackName);
+    const TrackLabels labels = labels_of_text(clean_text(text.name, kLongestTrackName), tag);
+    if (!labels.empty() && !wanted_track().empty() && !is_wanted(wanted_track(), labels)) continue;
     const av::LogCapture log;
     Result<std::unique_ptr<Input>> input =
         Input::open(std::span<const std::uint8_t>(text.file), "webvtt");
@@ -148,9 +152,8 @@ Result<std::vector<TextTrack>> read_playlist_text(const std::string& path,
     Result<std::vector<TextTrack>> read = TextReader(**input, limits).read();
     if (!read) return read;
     for (TextTrack& track : *read) {
-      track.name = clean_text(text.name, kLongestTrackName);
-      const std::string language = clean_text(text.language, kLongestTrackName);
-      track.language = language.empty() ? "und" : language;
+      track.name = name_without_speaker(clean_text(text.name, kLongestTrackName));
+      track.language = tag.empty() ? "und" : tag.starts_with("zxx") ? "zxx" : tag;
       tracks.push_back(std::move(track));
     }
   }

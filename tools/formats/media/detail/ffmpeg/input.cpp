@@ -13,6 +13,7 @@
 #include "tools/formats/media/detail/ffmpeg/extension.h"
 #include "tools/formats/media/detail/mp4/boxes.h"
 #include "tools/formats/media/detail/tracks/face_header.h"
+#include "tools/formats/media/detail/tracks/track_names.h"
 
 namespace animeme::media {
 
@@ -52,18 +53,28 @@ TopBoxes find_top_boxes(std::uint64_t size, const ReadAt& read) {
   return top;
 }
 
+/// What libavformat does not tell of an mp4.
+struct Mp4Facts {
+  std::vector<MetadataTrack> metadata;
+  std::map<std::uint32_t, std::string> tags;
+};
+
+Mp4Facts facts_of(const std::vector<std::uint8_t>& moov) {
+  return {metadata_tracks(moov), extended_languages(moov)};
+}
+
 // Refuses a fragmented mp4 with a track that has no track header or no number: libavformat 5.1
 // then keeps an error code as a fragment number and counts up from it, a thousand million steps
 // for each run of samples. Other files pass, whatever they are. Gives the tracks of timed
 // metadata that libavformat does not look into. Error: syntax.
-Result<std::vector<MetadataTrack>> look_at_mp4(std::uint64_t size, const ReadAt& read) {
+Result<Mp4Facts> look_at_mp4(std::uint64_t size, const ReadAt& read) {
   const TopBoxes top = find_top_boxes(size, read);
-  if (top.moov_size == 0) return std::vector<MetadataTrack>();
+  if (top.moov_size == 0) return Mp4Facts();
   const Error damaged = make_error(Code::syntax, "the contents of this fragmented mp4 are damaged");
   std::vector<std::uint8_t> moov;
   if (top.moov_size <= kLargestMoov) moov.resize(static_cast<std::size_t>(top.moov_size));
   const bool whole = !moov.empty() && read(top.moov, moov);
-  if (!top.fragmented) return whole ? metadata_tracks(moov) : std::vector<MetadataTrack>();
+  if (!top.fragmented) return whole ? facts_of(moov) : Mp4Facts();
   const Box box = whole ? box_at(moov, 0, moov.size()) : Box();
   if (box.begin == 0) return damaged;
   bool good = true;
@@ -71,7 +82,7 @@ Result<std::vector<MetadataTrack>> look_at_mp4(std::uint64_t size, const ReadAt&
     if (inner.type == "trak") good = good && track_id(moov, inner) - 1 < 0x7FFFFFFF;
   });
   if (!good || end != box.end) return damaged;
-  return metadata_tracks(moov);
+  return facts_of(moov);
 }
 
 // Reading a file more often than this is not needed for anything but a hostile index.
@@ -145,7 +156,7 @@ Result<void> Input::start(const std::string& hint, const char* formats) {
   const int status = avformat_open_input(&context_, hint.c_str(), nullptr, options.get());
   if (status >= 0) {
     reveal_metadata();
-    return {};
+    return show_wanted();
   }
   if (formats != nullptr && status == AVERROR(EINVAL)) {
     return make_error(Code::unsupported,
@@ -165,14 +176,16 @@ bool Input::holds_raw_stream() {
 
 Result<void> Input::look_at_boxes() {
   if (size_ < 0) return {};
-  Result<std::vector<MetadataTrack>> tracks = look_at_mp4(
+  Result<Mp4Facts> facts = look_at_mp4(
       std::uint64_t(size_), [this](std::uint64_t offset, std::span<std::uint8_t> buffer) {
         return seek_to(std::int64_t(offset), SEEK_SET) >= 0 &&
                read_some(buffer.data(), int(buffer.size())) == int(buffer.size());
       });
   seek_to(0, SEEK_SET);
-  if (!tracks) return tracks.error();
-  metadata_ = std::move(*tracks);
+  if (!facts) return facts.error();
+  metadata_ = std::move(facts->metadata);
+  for (auto& [track, tag] : facts->tags) tags_[track] = std::move(tag);
+  if (facts->metadata.empty() && tags_.empty()) read_language_tags();
   return {};
 }
 
@@ -195,6 +208,62 @@ void Input::reveal_metadata() {
       parameters.codec_id = track.face ? AV_CODEC_ID_MPEG4 : AV_CODEC_ID_MOV_TEXT;
     }
   }
+}
+
+// Of Matroska, whose tracks lie in front of the data.
+void Input::read_language_tags() {
+  constexpr std::int64_t kLooked = 1 << 16;
+  std::vector<std::uint8_t> bytes(std::size_t(std::min(size_, kLooked)));
+  const int count = read_some(bytes.data(), int(bytes.size()));
+  seek_to(0, SEEK_SET);
+  constexpr std::array<std::uint8_t, 4> kEbml = {0x1A, 0x45, 0xDF, 0xA3};
+  if (count < 64 || !std::equal(kEbml.begin(), kEbml.end(), bytes.begin())) return;
+  listed_tags_ = language_tags(std::span(bytes).first(std::size_t(count)));
+}
+
+TrackLabels Input::labels(const AVStream& stream) const {
+  const auto index = std::size_t(stream.index);
+  if (index < listed_tags_.size()) return labels_of(stream, listed_tags_[index]);
+  const auto tag = tags_.find(stream.id);
+  return labels_of(stream, tag == tags_.end() ? std::string() : tag->second);
+}
+
+// Each kind of track for itself, so that a sound without labels goes with any face.
+Result<void> Input::show_wanted() {
+  const TrackLabels& wanted = wanted_track();
+  if (wanted.empty()) return {};
+  bool found = false, labelled = false;
+  for (const AVMediaType kind : {AVMEDIA_TYPE_VIDEO, AVMEDIA_TYPE_AUDIO, AVMEDIA_TYPE_SUBTITLE}) {
+    const auto is_of_kind = [&](const AVStream& stream) {
+      const AVCodecParameters& parameters = *stream.codecpar;
+      return parameters.codec_type == kind &&
+             (kind != AVMEDIA_TYPE_VIDEO || parameters.codec_id == AV_CODEC_ID_MPEG4);
+    };
+    bool languages = false, speakers = false;
+    for (unsigned i = 0; i < context_->nb_streams; ++i) {
+      if (!is_of_kind(*context_->streams[i])) continue;
+      const TrackLabels here = labels(*context_->streams[i]);
+      languages = languages || !here.language.empty() || !here.code.empty();
+      speakers = speakers || !here.speaker.empty();
+    }
+    labelled = labelled || languages || speakers;
+    TrackLabels told = wanted;
+    if (!languages) told.language.clear();
+    if (!speakers) told.speaker.clear();
+    for (unsigned i = 0; i < context_->nb_streams; ++i) {
+      AVStream& stream = *context_->streams[i];
+      if (!is_of_kind(stream)) continue;
+      if (is_wanted(told, labels(stream))) {
+        found = found || languages || speakers;
+        continue;
+      }
+      stream.codecpar->codec_type = AVMEDIA_TYPE_UNKNOWN;
+      stream.codecpar->codec_id = AV_CODEC_ID_NONE;
+      stream.discard = AVDISCARD_ALL;
+    }
+  }
+  if (found || !labelled) return {};
+  return no_wanted_track();
 }
 
 Input::~Input() {

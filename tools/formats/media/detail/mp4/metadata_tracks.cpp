@@ -7,12 +7,15 @@
 #include <string_view>
 
 #include "tools/formats/media/detail/tracks/face_header.h"
+#include "tools/formats/media/detail/tracks/track_names.h"
+#include "tools/formats/media/track_labels.h"
 
 namespace animeme::media {
 namespace {
 
 constexpr std::size_t kHandlerAt = 8;      // in the content of hdlr
 constexpr std::size_t kEntriesAt = 8;      // in the content of stsd
+constexpr std::size_t kElngFields = 4;     // version and flags
 constexpr std::size_t kSizeOfPicture = 8;  // width and height, the last of tkhd
 constexpr std::uint8_t kDecoderConfig = 4, kDecoderSpecific = 5;
 constexpr std::uint8_t kVisual = 0x20;  // object type: ISO/IEC 14496-2
@@ -48,7 +51,7 @@ bool is_named(Bytes moov, const Box& trak, std::string_view wanted) {
   if (handler.begin == 0 || handler.end - handler.begin < kNameAt + wanted.size()) return false;
   const char* name = reinterpret_cast<const char*>(moov.data()) + handler.begin + kNameAt;
   const std::string_view rest(name, handler.end - handler.begin - kNameAt);
-  return rest.substr(0, rest.find('\0')) == wanted;
+  return name_without_speaker(rest.substr(0, rest.find('\0'))) == wanted;
 }
 
 // A descriptor of MPEG-4 Systems; its content. Empty: another tag, or broken.
@@ -135,6 +138,42 @@ void put_boxes(BoxWriter& out, Bytes moov, const Box& parent) {
   });
 }
 
+// The content of `elng` of a track; empty: it has none, or one that is no tag.
+std::string extended_language(Bytes moov, const Box& trak) {
+  const Box box = box_in(moov, trak, {"mdia", "elng"});
+  if (box.begin == 0 || box.end - box.begin < kElngFields) return {};
+  const char* at = reinterpret_cast<const char*>(moov.data()) + box.begin + kElngFields;
+  const std::string_view rest(at, box.end - box.begin - kElngFields);
+  const std::string tag(rest.substr(0, rest.find('\0')));
+  return is_language_tag(tag) ? tag : std::string();
+}
+
+// The boxes of a track, with what its mark says.
+void put_marked(BoxWriter& out, Bytes moov, const Box& parent, const TrackMark& mark) {
+  for_each_box(moov, parent.begin, parent.end, [&](const Box& box) {
+    if (box.type == "elng") return;
+    out.begin(box.type);
+    // The alternate group lies 12 bytes in front of the matrix and the picture.
+    constexpr std::size_t kGroupToEnd = 2 + 2 + 2 + 36 + 8;
+    if (box.type == "mdia") {
+      put_marked(out, moov, box, mark);
+    } else if (box.type == "tkhd" && mark.group != 0 && box.end - box.begin > kGroupToEnd) {
+      out.raw(moov.subspan(box.begin, box.end - box.begin - kGroupToEnd));
+      out.u16(mark.group);
+      out.raw(moov.subspan(box.end - kGroupToEnd + 2, kGroupToEnd - 2));
+    } else {
+      out.raw(content_of(moov, box));
+    }
+    out.end();
+    if (box.type == "mdhd" && !mark.tag.empty()) {
+      out.begin_full("elng", 0, 0);
+      out.text(mark.tag);
+      out.u8(0);
+      out.end();
+    }
+  });
+}
+
 }  // namespace
 
 bool becomes_metadata(Bytes moov, const Box& trak, const TrackTypes& types) {
@@ -174,6 +213,36 @@ std::vector<MetadataTrack> metadata_tracks(Bytes moov) {
     }
   });
   return tracks;
+}
+
+std::map<std::uint32_t, std::string> extended_languages(Bytes moov) {
+  std::map<std::uint32_t, std::string> tags;
+  const Box whole = box_at(moov, 0, moov.size());
+  if (whole.begin == 0 || whole.type != "moov") return tags;
+  for_each_box(moov, whole.begin, whole.end, [&](const Box& trak) {
+    if (trak.type != "trak") return;
+    std::string tag = extended_language(moov, trak);
+    if (!tag.empty()) tags[track_id(moov, trak)] = std::move(tag);
+  });
+  return tags;
+}
+
+std::vector<std::uint8_t> marked_moov(Bytes moov, const std::vector<TrackMark>& marks) {
+  const Box whole = box_at(moov, 0, moov.size());
+  std::size_t next = 0;
+  BoxWriter out;
+  out.begin("moov");
+  for_each_box(moov, whole.begin, whole.end, [&](const Box& box) {
+    out.begin(box.type);
+    if (box.type == "trak" && next < marks.size()) {
+      put_marked(out, moov, box, marks[next++]);
+    } else {
+      out.raw(content_of(moov, box));
+    }
+    out.end();
+  });
+  out.end();
+  return out.bytes();
 }
 
 }  // namespace animeme::media

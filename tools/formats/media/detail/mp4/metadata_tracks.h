@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "tools/formats/media/detail/mp4/box_writer.h"
@@ -12,11 +14,21 @@
 
 namespace animeme::media {
 
+/// What one track of a file of several languages says besides.
+struct TrackMark {
+  std::string tag;     ///< language as BCP 47 has it; empty: none
+  unsigned group = 0;  ///< of tracks that stand for each other; 0: none
+};
+
 /// Track types of faces and texts in a file.
 struct TrackTypes {
   FaceTrackType face = FaceTrackType::metadata;
   TextTrackType text = TextTrackType::subtitles;
+  std::vector<TrackMark> marks = {};  ///< of all tracks in their order; empty: they have none
 };
+
+/// A `moov` with these marks: `elng` behind `mdhd`, and alternate groups in `tkhd`.
+std::vector<std::uint8_t> marked_moov(Bytes moov, const std::vector<TrackMark>& marks);
 
 /// Whether `types` asks to convert this `trak` of libavformat to metadata: a face (handler `vide`,
 /// sample entry `mp4v`, configuration of a face) or a text (sample entry `tx3g`).
@@ -36,5 +48,8 @@ struct MetadataTrack {
 /// The certain and possible faces (sample entry `mp4s`) and the texts (sample entry `mett`) of a
 /// whole `moov` box. Damaged boxes are skipped.
 std::vector<MetadataTrack> metadata_tracks(Bytes moov);
+
+/// The extended languages of a whole `moov` box, by the number of the track.
+std::map<std::uint32_t, std::string> extended_languages(Bytes moov);
 
 }  // namespace animeme::media

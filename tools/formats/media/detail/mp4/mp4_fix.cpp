@@ -255,6 +255,7 @@ std::vector<std::uint8_t> complete_moov(std::span<const std::uint8_t> moov, cons
     }
   });
   out.end();
+  if (!types.marks.empty()) return marked_moov(out.bytes(), types.marks);
   return out.bytes();
 }
 

@@ -44,11 +44,35 @@ std::int64_t average(const SegmentedTrack& track) {
   return std::int64_t(std::ceil(bytes * 8 / length(track)));
 }
 
-std::string variant(const SegmentedTrack& track, const std::string& folder, bool texts) {
-  return format("#EXT-X-STREAM-INF:BANDWIDTH=%lld,AVERAGE-BANDWIDTH=%lld,CODECS=\"%s\"%s\n",
+std::string variant(const SegmentedTrack& track, const std::string& folder, bool texts,
+                    bool sounds = false) {
+  return format("#EXT-X-STREAM-INF:BANDWIDTH=%lld,AVERAGE-BANDWIDTH=%lld,CODECS=\"%s\"%s%s\n",
                 (long long)peak(track), (long long)average(track), track.codecs.c_str(),
-                texts ? ",SUBTITLES=\"text\"" : "") +
+                sounds ? ",AUDIO=\"sound\"" : "", texts ? ",SUBTITLES=\"text\"" : "") +
          folder + "/" + track.name + ".m3u8\n";
+}
+
+// What a person reads in a menu, unique in its group.
+std::string name_of(const SegmentedTrack& track) {
+  const TrackLabels& labels = track.labels;
+  std::string name = labels.speaker.empty()    ? labels.language
+                     : labels.language.empty() ? labels.speaker
+                                               : labels.speaker + " (" + labels.language + ")";
+  if (name.empty()) name = track.name;
+  std::erase(name, '"');
+  return name;
+}
+
+// Players that know no faces must not choose one.
+std::string media_tag(const SegmentedTrack& track, const std::string& folder) {
+  const bool chosen = !track.face && track.is_default;
+  const std::string& language = track.labels.language;
+  return std::string("#EXT-X-MEDIA:TYPE=") + (track.face ? "VIDEO" : "AUDIO") + ",GROUP-ID=\"" +
+         (track.face ? "face" : "sound") + "\",NAME=\"" + name_of(track) + "\"" +
+         (language.empty() ? "" : ",LANGUAGE=\"" + language + "\"") +
+         ",DEFAULT=" + (chosen ? "YES" : "NO") + ",AUTOSELECT=" + (track.face ? "NO" : "YES") +
+         (track.face ? "" : ",CHANNELS=\"" + std::to_string(track.channels) + "\"") + ",URI=\"" +
+         folder + "/" + track.name + ".m3u8\"\n";
 }
 
 std::string timeline(const SegmentedTrack& track) {
@@ -72,11 +96,17 @@ std::string timeline(const SegmentedTrack& track) {
 
 std::string adaptation_set(const SegmentedTrack& track, int id, const std::string& folder) {
   const char* kind = track.face ? "video" : "audio";
+  const std::string& tag = track.labels.language;
+  const std::string language = tag.empty() ? "" : " lang=\"" + tag + "\"";
   std::string text = format(
-      "    <AdaptationSet id=\"%d\" contentType=\"%s\" mimeType=\"%s/mp4\" "
+      "    <AdaptationSet id=\"%d\" contentType=\"%s\" mimeType=\"%s/mp4\"%s "
       "segmentAlignment=\"true\" startWithSAP=\"1\">\n",
-      id, kind, kind);
+      id, kind, kind, language.c_str());
   if (track.face) text += format("      <EssentialProperty schemeIdUri=\"%s\"/>\n", kFaceScheme);
+  if (!track.labels.empty()) {
+    text += format("      <Role schemeIdUri=\"urn:mpeg:dash:role:2011\" value=\"%s\"/>\n",
+                   track.is_default ? "main" : "dub");
+  }
   text += format("      <SegmentTemplate timescale=\"%u\" startNumber=\"1\" ", track.timescale) +
           "initialization=\"" + folder + "/" + track.init + "\" media=\"" + folder + "/" +
           track.name + "-$Number%05d$.m4s\">\n" + timeline(track) + "      </SegmentTemplate>\n";
@@ -103,15 +133,28 @@ std::string hls_master(const std::vector<SegmentedTrack>& tracks, const std::str
   std::string text = "#EXTM3U\n#EXT-X-VERSION:7\n#EXT-X-INDEPENDENT-SEGMENTS\n";
   const bool has_sound = std::any_of(tracks.begin(), tracks.end(),
                                      [](const SegmentedTrack& track) { return !track.face; });
+  const bool labelled = std::any_of(tracks.begin(), tracks.end(), [](const SegmentedTrack& track) {
+    return !track.labels.empty();
+  });
   for (const SidecarText& each : texts) {
     std::string name = each.name;
+    if (labelled) {
+      name += " (" + each.speaker + (each.speaker.empty() || each.language.empty() ? "" : ", ") +
+              each.language + ")";
+    }
     std::erase(name, '"');
     text += "#EXT-X-MEDIA:TYPE=SUBTITLES,GROUP-ID=\"text\",NAME=\"" + name + "\",LANGUAGE=\"" +
             each.language + "\",DEFAULT=NO,AUTOSELECT=NO,URI=\"" + folder + "/" + each.playlist +
             "\"\n";
   }
   for (const SegmentedTrack& track : tracks) {
-    if (track.face && has_sound) {
+    if (labelled && (has_sound || !track.is_default)) text += media_tag(track, folder);
+  }
+  for (const SegmentedTrack& track : tracks) {
+    if (labelled) {
+      if (track.is_default && track.face != has_sound)
+        text += variant(track, folder, !texts.empty(), has_sound);
+    } else if (track.face && has_sound) {
       text +=
           "#EXT-X-MEDIA:TYPE=VIDEO,GROUP-ID=\"face\",NAME=\"face\",DEFAULT=NO,AUTOSELECT=NO,"
           "URI=\"" +

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fap/result.h"
+#include "tools/formats/media/track_labels.h"
 
 namespace animeme::media {
 
@@ -27,22 +28,26 @@ struct SegmentedTrack {
   std::uint32_t timescale = 0;  ///< ticks a second
   int sample_rate = 0;          ///< of sound
   int channels = 0;
-  std::string init;  ///< name of the initialization segment
+  TrackLabels labels;      ///< empty: nothing is said
+  bool is_default = true;  ///< of the tracks of its kind
+  std::string init;        ///< name of the initialization segment
   std::vector<Segment> segments;
 };
 
 /// A text of its own playlist, beside the others.
 struct SidecarText {
-  std::string playlist;  ///< its reference
-  std::string name;      ///< what players list it as
-  std::string language;  ///< empty: unknown
+  std::string playlist;      ///< its reference
+  std::string name;          ///< what players list it as
+  std::string language;      ///< empty: unknown
+  std::string speaker = {};  ///< of several; empty: none
 };
 
 /// `folder` is where the segments lie, seen from the playlist: "talk_hls".
 ///
 /// The top playlist: the sound is the one variant, so that any player plays it; the face is a
-/// rendition that no variant asks for. A face alone is the variant. Texts, whose playlists lie in
-/// `folder`, too, are subtitles that nobody is shown unasked.
+/// rendition that no variant asks for. A face alone is the variant. With labels, sounds are a group
+/// of audio renditions, and faces one of video renditions, by LANGUAGE. Texts, whose playlists lie
+/// in `folder`, too, are subtitles that nobody is shown unasked.
 std::string hls_master(const std::vector<SegmentedTrack>& tracks, const std::string& folder,
                        const std::vector<SidecarText>& texts = {});
 
@@ -53,7 +58,7 @@ std::string hls_text(const std::string& file, double seconds);
 std::string hls_media(const SegmentedTrack& track);
 
 /// An MPD: one adaptation set a track. That of the face has an EssentialProperty, which tells
-/// clients that do not know it to leave the set alone.
+/// clients that do not know it to leave the set alone. Labels are `lang` and a role, main or dub.
 std::string dash_description(const std::vector<SegmentedTrack>& tracks, const std::string& folder);
 
 /// Names of files, relative to that of the playlist.

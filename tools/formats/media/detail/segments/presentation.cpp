@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kLongestPlaylist = std::uintmax_t(1) << 24;
 constexpr std::uintmax_t kMostPresentation = std::uintmax_t(1) << 30;
-constexpr std::size_t kMostRenditions = 16;
+constexpr std::size_t kMostRenditions = 64;
 
 using FileBytes = std::vector<std::uint8_t>;
 
@@ -167,6 +167,19 @@ Result<Presentation> read_presentation(const std::string& path) {
       dash ? add_dash(presentation, room) : add_hls(presentation, room, room.name(), true);
   if (!added) return std::move(added.error()).in_file(path);
   return presentation;
+}
+
+const std::vector<std::uint8_t>* find_rendition(const Presentation& presentation, TrackKind kind) {
+  const TrackLabels& wanted = wanted_track();
+  const std::vector<std::uint8_t>* plain = nullptr;
+  for (const std::vector<std::uint8_t>& bytes : presentation.renditions) {
+    const Result<ContainerInfo> info = probe(bytes);
+    const TrackInfo* track = info ? info->first(kind) : nullptr;
+    if (track == nullptr) continue;
+    if (wanted.empty() || is_wanted(wanted, track->labels)) return &bytes;
+    if (track->labels.empty() && plain == nullptr) plain = &bytes;
+  }
+  return plain;
 }
 
 Result<std::vector<std::uint8_t>> sound_of_playlist(const std::string& path) {

@@ -29,15 +29,9 @@ struct Presentation {
 /// 1 GB in all. Errors: not_found, io, syntax, truncated, unsupported, out_of_range.
 Result<Presentation> read_presentation(const std::string& path);
 
-/// The first rendition with a track of this kind; nullptr: there is none.
-inline const std::vector<std::uint8_t>* find_rendition(const Presentation& presentation,
-                                                       TrackKind kind) {
-  for (const std::vector<std::uint8_t>& bytes : presentation.renditions) {
-    const Result<ContainerInfo> info = probe(bytes);
-    if (info && info->first(kind) != nullptr) return &bytes;
-  }
-  return nullptr;
-}
+/// The first rendition with a track of this kind that is wanted (track_labels.h), or else with one
+/// without labels; nullptr: there is none.
+const std::vector<std::uint8_t>* find_rendition(const Presentation& presentation, TrackKind kind);
 
 /// The rendition with the sound. Errors: those of reading the presentation; not_found (silent).
 Result<std::vector<std::uint8_t>> sound_of_playlist(const std::string& path);

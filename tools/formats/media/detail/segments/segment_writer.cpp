@@ -20,6 +20,7 @@
 #include "tools/formats/media/detail/tracks/interleaver.h"
 #include "tools/formats/media/detail/tracks/mux_parts.h"
 #include "tools/formats/media/detail/tracks/text_samples.h"
+#include "tools/formats/media/detail/tracks/track_names.h"
 #include "tools/formats/media/detail/tracks/words_internal.h"
 
 namespace animeme::media {
@@ -130,25 +131,34 @@ class SegmentWriter {
 
  private:
   Result<void> open(const tools::OutputFolder& folder);
-  Result<Track*> add_track(const tools::OutputFolder& folder, const char* name);
+  Result<void> open_face(const tools::OutputFolder& folder, const MuxInput& part, bool first);
+  Result<void> open_sound(const tools::OutputFolder& folder, const MuxInput& part, bool first);
+  Result<Track*> add_track(const tools::OutputFolder& folder, const char* name,
+                           const TrackLabels& labels, bool first);
   Result<void> start(Track& track, const Mp4Contents& contents, std::unique_ptr<TrackFeed> feed);
-  Result<void> write_texts(const tools::OutputFolder& folder, double seconds);
+  Result<void> write_texts(const tools::OutputFolder& folder, const MuxInput& part, double seconds);
   std::string text(const std::string& folder) const;
 
   const std::string& path_;
   const MuxInput& input_;
   const MuxOptions& options_;
   bool dash_;
-  std::optional<SoundSource> sound_;
+  std::vector<std::unique_ptr<SoundSource>> sounds_;
   std::vector<std::unique_ptr<Track>> tracks_;
   std::vector<std::unique_ptr<TrackFeed>> feeds_;
   std::vector<SidecarText> texts_;
 };
 
-Result<Track*> SegmentWriter::add_track(const tools::OutputFolder& folder, const char* name) {
+// "face" and "sound", and numbers behind those of further languages.
+Result<Track*> SegmentWriter::add_track(const tools::OutputFolder& folder, const char* name,
+                                        const TrackLabels& labels, bool first) {
   auto track = std::make_unique<Track>();
-  track->description.name = name;
-  track->whole = folder.file(std::string(name) + ".all");
+  SegmentedTrack& description = track->description;
+  description.name = name;
+  if (!first) description.name += "-" + std::to_string(1 + tracks_.size());
+  description.labels = labels;
+  description.is_default = first;
+  track->whole = folder.file(description.name + ".all");
   Result<std::unique_ptr<Muxer>> muxer = Muxer::open(track->whole, "mp4");
   if (!muxer) return muxer.error();
   track->muxer = std::move(*muxer);
@@ -177,36 +187,53 @@ Result<void> SegmentWriter::start(Track& track, const Mp4Contents& contents,
   return track.muxer->write_header(header);
 }
 
-Result<void> SegmentWriter::open(const tools::OutputFolder& folder) {
-  if (input_.face != nullptr) {
-    Result<Track*> track = add_track(folder, "face");
-    if (!track) return track.error();
-    Muxer& muxer = *(*track)->muxer;
-    const int profile = visual_profile(input_);
-    (*track)->description.face = true;
-    (*track)->description.codecs = options_.face_track == FaceTrackType::metadata
-                                       ? "mp4s.20"
-                                       : "mp4v.20." + to_hex(std::array{std::uint8_t(profile)});
-    Result<void> done = muxer.add_face(*input_.face, buffer_facts(*input_.face));
-    if (done) {
-      done = start(**track, {input_.face, profile, nullptr}, face_feed(muxer, *input_.face));
-    }
-    if (!done) return done;
-  }
-  Result<std::optional<SoundSource>> sound = open_sound(input_, options_);
-  if (!sound) return sound.error();
-  sound_ = std::move(*sound);
-  if (!sound_) return {};
-  Result<Track*> track = add_track(folder, "sound");
+Result<void> SegmentWriter::open_face(const tools::OutputFolder& folder, const MuxInput& part,
+                                      bool first) {
+  Result<Track*> track = add_track(folder, "face", part.labels, first);
   if (!track) return track.error();
-  const AudioFormat& format = sound_->format();
+  Muxer& muxer = *(*track)->muxer;
+  const int profile = visual_profile(part);
+  (*track)->description.face = true;
+  (*track)->description.codecs = options_.face_track == FaceTrackType::metadata
+                                     ? "mp4s.20"
+                                     : "mp4v.20." + to_hex(std::array{std::uint8_t(profile)});
+  auto added = muxer.add_face(*part.face, buffer_facts(*part.face), part.labels);
+  if (!added) return added;
+  return start(**track, {part.face, profile, nullptr}, face_feed(muxer, *part.face));
+}
+
+Result<void> SegmentWriter::open_sound(const tools::OutputFolder& folder, const MuxInput& part,
+                                       bool first) {
+  Result<std::optional<SoundSource>> opened = media::open_sound(part, options_);
+  if (!opened) return opened.error();
+  if (!*opened) return {};
+  sounds_.push_back(std::make_unique<SoundSource>(std::move(**opened)));
+  SoundSource& sound = *sounds_.back();
+  Result<Track*> track = add_track(folder, "sound", part.labels, first);
+  if (!track) return track.error();
+  const AudioFormat& format = sound.format();
   SegmentedTrack& description = (*track)->description;
   description.codecs = codecs_of(format);
   description.sample_rate = format.sample_rate;
   description.channels = format.channels;
   Muxer& muxer = *(*track)->muxer;
-  if (auto added = muxer.add_sound(format, sound_->bit_rate()); !added) return added;
-  return start(**track, {nullptr, 0xFF, &format}, sound_feed(muxer, *sound_, sound_->seconds()));
+  if (auto added = muxer.add_sound(format, sound.bit_rate(), part.labels); !added) return added;
+  return start(**track, {nullptr, 0xFF, &format}, sound_feed(muxer, sound, sound.seconds()));
+}
+
+Result<void> SegmentWriter::open(const tools::OutputFolder& folder) {
+  std::vector<const MuxInput*> parts = {&input_};
+  for (const MuxInput& further : input_.more) parts.push_back(&further);
+  bool first = true;
+  for (const MuxInput* part : parts) {
+    if (part->face == nullptr) continue;
+    if (auto done = open_face(folder, *part, first); !done) return done;
+    first = false;
+  }
+  for (const MuxInput* part : parts) {
+    if (auto done = open_sound(folder, *part, sounds_.empty()); !done) return done;
+  }
+  return {};
 }
 
 std::string SegmentWriter::text(const std::string& folder) const {
@@ -216,11 +243,14 @@ std::string SegmentWriter::text(const std::string& folder) const {
 }
 
 // Each in one piece: text is small.
-Result<void> SegmentWriter::write_texts(const tools::OutputFolder& folder, double seconds) {
-  if (input_.texts == nullptr) return {};
-  for (const TextTrack& track : *input_.texts) {
+Result<void> SegmentWriter::write_texts(const tools::OutputFolder& folder, const MuxInput& part,
+                                        double seconds) {
+  if (part.texts == nullptr) return {};
+  for (const TextTrack& track : *part.texts) {
     const std::string name = "text-" + std::to_string(texts_.size() + 1);
-    texts_.push_back({name + ".m3u8", clean_text(track.name), track.language});
+    const std::string tag = tag_of_text(track.language, part.labels.language);
+    texts_.push_back({name + ".m3u8", clean_text(track.name), tag.empty() ? track.language : tag,
+                      part.labels.speaker});
     Result<void> done = write_text(folder.file(name + ".vtt"), webvtt_of(track));
     if (done) done = write_text(folder.file(name + ".m3u8"), hls_text(name + ".vtt", seconds));
     if (!done) return done;
@@ -241,7 +271,10 @@ Result<MuxResult> SegmentWriter::write() {
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     Track& track = *tracks_[i];
     Result<void> step = track.muxer->finish();
-    if (step) step = complete_mp4(track.whole, Layout::contents_first, {options_.face_track});
+    TrackTypes types{options_.face_track};
+    const TrackLabels& labels = track.description.labels;
+    if (!labels.empty()) types.marks = {{labels.language, 0}};
+    if (step) step = complete_mp4(track.whole, Layout::contents_first, types);
     if (step) step = split(*folder, track, feeds_[i]->end());
     if (step && !dash_) {
       step =
@@ -249,13 +282,18 @@ Result<MuxResult> SegmentWriter::write() {
     }
     if (!step) return step.error();
   }
-  Result<void> step = write_texts(*folder, done->seconds);
+  Result<void> step = write_texts(*folder, input_, done->seconds);
+  for (const MuxInput& further : input_.more)
+    if (step) step = write_texts(*folder, further, done->seconds);
   if (step) step = playlist.write(text(to_reference(folder_name)));
   if (step) step = folder->commit();
   if (step) step = playlist.publish();  // last: it is what readers look for
   if (!step) return step.error();
   folder->keep();
-  return MuxResult{done->seconds, sound_ ? sound_->seconds_so_far() : 0, done->stopped};
+  double sound_seconds = 0;
+  for (const auto& sound : sounds_)
+    sound_seconds = std::max(sound_seconds, sound->seconds_so_far());
+  return MuxResult{done->seconds, sound_seconds, done->stopped};
 }
 
 }  // namespace

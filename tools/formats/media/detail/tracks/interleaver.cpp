@@ -1,6 +1,7 @@
 #include "tools/formats/media/detail/tracks/interleaver.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace animeme::media {
 namespace {
@@ -12,17 +13,16 @@ constexpr double kShortestFile = 0.5;  // seconds; readers cannot tell what less
 template <class Packet>
 class ListFeed : public TrackFeed {
  public:
-  using Write = Result<void> (Muxer::*)(const Packet&);
-  ListFeed(Muxer& muxer, const std::vector<Packet>& packets, AVRational base, bool Packet::*sync,
-           Write how)
-      : muxer_(muxer), packets_(packets), base_(base), sync_(sync), write_(how) {}
+  using Write = std::function<Result<void>(const Packet&)>;
+  ListFeed(const std::vector<Packet>& packets, AVRational base, bool Packet::*sync, Write how)
+      : packets_(packets), base_(base), sync_(sync), write_(std::move(how)) {}
 
   Result<void> begin() override { return {}; }
   bool ready() const override { return next_ < packets_.size(); }
   std::int64_t time() const override { return packets_[next_].time; }
   AVRational time_base() const override { return base_; }
   bool sync() const override { return packets_[next_].*sync_; }
-  Result<void> write() override { return (muxer_.*write_)(packets_[next_++]); }
+  Result<void> write() override { return write_(packets_[next_++]); }
   double end() const override {
     if (next_ == 0) return 0;
     const Packet& last = packets_[next_ - 1];
@@ -34,7 +34,6 @@ class ListFeed : public TrackFeed {
   static std::int64_t duration_of(const fba::AccessUnit& unit) { return unit.duration; }
   static std::int64_t duration_of(const VideoPacket&) { return 1; }
 
-  Muxer& muxer_;
   const std::vector<Packet>& packets_;
   AVRational base_;
   bool Packet::*sync_;
@@ -45,7 +44,8 @@ class ListFeed : public TrackFeed {
 /// Units that are read while they are written.
 class UnitFeed : public TrackFeed {
  public:
-  UnitFeed(Muxer& muxer, fba::UnitReader& units) : muxer_(muxer), units_(units) {}
+  UnitFeed(Muxer& muxer, fba::UnitReader& units, int number)
+      : muxer_(muxer), units_(units), number_(number) {}
 
   Result<void> begin() override {
     units_.rewind();
@@ -57,7 +57,7 @@ class UnitFeed : public TrackFeed {
   bool sync() const override { return unit_->intra; }
   Result<void> write() override {
     end_ = unit_->time + unit_->duration;
-    Result<void> written = muxer_.write_unit(*unit_);
+    Result<void> written = muxer_.write_unit(*unit_, number_);
     return written ? next() : written;
   }
   double end() const override { return double(end_) / units_.summary().timescale; }
@@ -73,14 +73,15 @@ class UnitFeed : public TrackFeed {
 
   Muxer& muxer_;
   fba::UnitReader& units_;
+  int number_;
   const fba::AccessUnit* unit_ = nullptr;
   std::int64_t end_ = 0;
 };
 
 class SoundFeed : public TrackFeed {
  public:
-  SoundFeed(Muxer& muxer, SoundSource& sound, double seconds)
-      : muxer_(muxer), sound_(sound), seconds_(seconds) {}
+  SoundFeed(Muxer& muxer, SoundSource& sound, double seconds, int number)
+      : muxer_(muxer), sound_(sound), seconds_(seconds), number_(number) {}
 
   Result<void> begin() override {
     Result<const AudioPacket*> packet = sound_.next();
@@ -94,7 +95,7 @@ class SoundFeed : public TrackFeed {
   bool sync() const override { return true; }
   Result<void> write() override {
     end_ = packet_->time + packet_->duration;
-    Result<void> written = muxer_.write_sound(*packet_);
+    Result<void> written = muxer_.write_sound(*packet_, number_);
     return written ? begin() : written;
   }
   double end() const override { return double(end_) / sound_.format().sample_rate; }
@@ -104,6 +105,7 @@ class SoundFeed : public TrackFeed {
   Muxer& muxer_;
   SoundSource& sound_;
   double seconds_;
+  int number_;
   const AudioPacket* packet_ = nullptr;
   std::int64_t end_ = 0;
 };
@@ -144,24 +146,28 @@ TrackFeed* first_due(const std::vector<std::unique_ptr<TrackFeed>>& feeds) {
 
 }  // namespace
 
-std::unique_ptr<TrackFeed> face_feed(Muxer& muxer, const fba::AccessUnits& face) {
-  return std::make_unique<ListFeed<fba::AccessUnit>>(muxer, face.units,
-                                                     AVRational{1, int(face.timescale)},
-                                                     &fba::AccessUnit::intra, &Muxer::write_unit);
+std::unique_ptr<TrackFeed> face_feed(Muxer& muxer, const fba::AccessUnits& face, int number) {
+  const auto write = [&muxer, number](const fba::AccessUnit& unit) {
+    return muxer.write_unit(unit, number);
+  };
+  return std::make_unique<ListFeed<fba::AccessUnit>>(face.units, AVRational{1, int(face.timescale)},
+                                                     &fba::AccessUnit::intra, write);
 }
 
-std::unique_ptr<TrackFeed> face_feed(Muxer& muxer, fba::UnitReader& units) {
-  return std::make_unique<UnitFeed>(muxer, units);
+std::unique_ptr<TrackFeed> face_feed(Muxer& muxer, fba::UnitReader& units, int number) {
+  return std::make_unique<UnitFeed>(muxer, units, number);
 }
 
 std::unique_ptr<TrackFeed> video_feed(Muxer& muxer, const EncodedVideo& video) {
+  const auto write = [&muxer](const VideoPacket& packet) { return muxer.write_picture(packet); };
   return std::make_unique<ListFeed<VideoPacket>>(
-      muxer, video.packets, AVRational{int(video.rate.den), int(video.rate.num)}, &VideoPacket::key,
-      &Muxer::write_picture);
+      video.packets, AVRational{int(video.rate.den), int(video.rate.num)}, &VideoPacket::key,
+      write);
 }
 
-std::unique_ptr<TrackFeed> sound_feed(Muxer& muxer, SoundSource& sound, double seconds) {
-  return std::make_unique<SoundFeed>(muxer, sound, seconds);
+std::unique_ptr<TrackFeed> sound_feed(Muxer& muxer, SoundSource& sound, double seconds,
+                                      int number) {
+  return std::make_unique<SoundFeed>(muxer, sound, seconds, number);
 }
 
 std::unique_ptr<TrackFeed> text_feed(Muxer& muxer, const TextSamples& samples, int text) {

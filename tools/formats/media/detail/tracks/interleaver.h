@@ -40,11 +40,13 @@ class TrackFeed {
   std::function<Result<void>(const TrackFeed&)> before;
 };
 
-/// All of these outlive the feed. `seconds` of sound, for share().
-std::unique_ptr<TrackFeed> face_feed(Muxer& muxer, const fba::AccessUnits& face);
-std::unique_ptr<TrackFeed> face_feed(Muxer& muxer, fba::UnitReader& units);
+/// All of these outlive the feed. `seconds` of sound, for share(). `number` of the face or the
+/// sound in the muxer.
+std::unique_ptr<TrackFeed> face_feed(Muxer& muxer, const fba::AccessUnits& face, int number = 0);
+std::unique_ptr<TrackFeed> face_feed(Muxer& muxer, fba::UnitReader& units, int number = 0);
 std::unique_ptr<TrackFeed> video_feed(Muxer& muxer, const EncodedVideo& video);
-std::unique_ptr<TrackFeed> sound_feed(Muxer& muxer, SoundSource& sound, double seconds);
+std::unique_ptr<TrackFeed> sound_feed(Muxer& muxer, SoundSource& sound, double seconds,
+                                      int number = 0);
 /// `text` as from Muxer::add_text().
 std::unique_ptr<TrackFeed> text_feed(Muxer& muxer, const TextSamples& samples, int text);
 

@@ -70,12 +70,36 @@ Result<void> check_text(const TextTrack& track) {
   return {};
 }
 
+Result<void> check_labels(const TrackLabels& labels) {
+  const bool code =
+      labels.code.empty() ||
+      (labels.code.size() == 3 && std::all_of(labels.code.begin(), labels.code.end(),
+                                              [](char c) { return c >= 'a' && c <= 'z'; }));
+  if (!code) return invalid("the code of a language must be three small letters");
+  if (!labels.language.empty() && !is_language_tag(labels.language)) {
+    return invalid("'" + labels.language + "' is no language tag");
+  }
+  constexpr std::size_t kLongestSpeakerName = 60;
+  if (labels.speaker.size() > kLongestSpeakerName || clean_text(labels.speaker) != labels.speaker) {
+    return invalid("the name of a speaker must be one line of at most 60 bytes");
+  }
+  return {};
+}
+
+Result<void> check_further(const MuxInput& input, const MuxOptions& options) {
+  if (input.video != nullptr || !input.more.empty()) {
+    return invalid("further languages have neither pictures nor languages of their own");
+  }
+  return check_input(input, options);
+}
+
 }  // namespace
 
 Result<void> check_input(const MuxInput& input, const MuxOptions& options) {
   const int sounds = int(input.audio != nullptr) + int(input.encoded != nullptr) +
                      int(input.audio_file != nullptr);
-  if (!input.has_face() && sounds == 0 && input.video == nullptr) {
+  const bool text = input.texts != nullptr && !input.texts->empty() && !input.labels.empty();
+  if (!input.has_face() && sounds == 0 && input.video == nullptr && !text) {
     return invalid("nothing to write: neither a face nor sound nor pictures were given");
   }
   if (sounds > 1) {
@@ -111,6 +135,10 @@ Result<void> check_input(const MuxInput& input, const MuxOptions& options) {
   }
   if (!(options.shared_seconds >= 0 && options.shared_seconds <= kLongestShared)) {
     return invalid("planes can share a packet for 0 to 2 seconds");
+  }
+  if (auto legal = check_labels(input.labels); !legal) return legal;
+  for (const MuxInput& further : input.more) {
+    if (auto legal = check_further(further, options); !legal) return legal;
   }
   if (input.audio != nullptr && input.audio->samples.empty()) return invalid("the sound is empty");
   if (input.encoded != nullptr) return check_audio(*input.encoded);

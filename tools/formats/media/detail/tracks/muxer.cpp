@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "tools/formats/media/detail/sound/audio_parameters.h"
+#include "tools/formats/media/detail/tracks/track_names.h"
 #include "tools/formats/media/detail/tracks/unit_facts.h"
 
 namespace animeme::media {
@@ -58,8 +59,21 @@ bool Muxer::is(const char* format) const {
   return std::strcmp(context_->oformat->name, format) == 0;
 }
 
-Result<void> Muxer::add_face(const fba::AccessUnits& units,
-                             const std::optional<BufferFacts>& facts) {
+// Only where there is something to say: files of one face stay as they are.
+void Muxer::label(AVStream& stream, const TrackLabels& labels, const char* kind) {
+  if (labels.empty()) return;
+  const std::string code = labels.code.empty() ? "und" : labels.code;
+  const std::string language = is("matroska") || is("webm") ? bibliographic_code(code) : code;
+  av_dict_set(&stream.metadata, "language", language.c_str(), 0);
+  const std::string name = name_with_speaker(kind, labels.speaker);
+  const bool mp4 = is("mp4");
+  if (!mp4 && labels.language.empty() && labels.speaker.empty()) return;
+  av_dict_set(&stream.metadata, mp4 ? "handler_name" : "title",
+              mp4 ? name.c_str() : title_with_tag(name, labels.language).c_str(), 0);
+}
+
+Result<void> Muxer::add_face(const fba::AccessUnits& units, const std::optional<BufferFacts>& facts,
+                             const TrackLabels& labels) {
   AVStream* stream = avformat_new_stream(context_, nullptr);
   if (stream == nullptr) return av::no_memory();
   AVCodecParameters& parameters = *stream->codecpar;
@@ -76,8 +90,11 @@ Result<void> Muxer::add_face(const fba::AccessUnits& units,
   av_reduce(&stream->avg_frame_rate.num, &stream->avg_frame_rate.den, units.timescale,
             first_duration, INT32_MAX);
   av_dict_set(&stream->metadata, "handler_name", "FBA", 0);
-  face_ = &units;
-  face_track_ = {stream, {1, int(units.timescale)}};
+  label(*stream, labels, "FBA");
+  // The pictures, or the first face.
+  if (!labels.empty() && faces_.empty() && video_track_.stream == nullptr)
+    stream->disposition |= AV_DISPOSITION_DEFAULT;
+  faces_.push_back({&units, {stream, {1, int(units.timescale)}}});
   return {};
 }
 
@@ -115,19 +132,24 @@ Result<void> Muxer::add_stream(const AVCodecParameters& parameters, AVRational t
   return {};
 }
 
-Result<void> Muxer::add_sound(const AudioFormat& format, std::int64_t bit_rate) {
+Result<void> Muxer::add_sound(const AudioFormat& format, std::int64_t bit_rate,
+                              const TrackLabels& labels) {
   Result<av::Parameters> parameters = codec_parameters(format, bit_rate);
   if (!parameters) return parameters.error();
-  sound_ = format;
+  if (auto added = add_stream(**parameters, {1, format.sample_rate}); !added) return added;
+  Sound sound{format, 0, other_track_};
   // libavformat 5.1 moves the blocks by the pre-skip and has players skip it, too. Source:
   // tools/formats/media/containers.md, section 3.1.
   if (format.codec == AudioCodec::opus && (is("matroska") || is("webm"))) {
-    sound_shift_ = format.priming;
+    sound.shift = format.priming;
   }
-  return add_stream(**parameters, {1, format.sample_rate});
+  label(*sound.track.stream, labels, "sound");
+  if (!labels.empty() && sounds_.empty()) sound.track.stream->disposition = AV_DISPOSITION_DEFAULT;
+  sounds_.push_back(std::move(sound));
+  return {};
 }
 
-Result<int> Muxer::add_text(const TextSamples& text) {
+Result<int> Muxer::add_text(const TextSamples& text, const TrackLabels& labels) {
   AVStream* stream = avformat_new_stream(context_, nullptr);
   if (stream == nullptr) return av::no_memory();
   stream->codecpar->codec_type = AVMEDIA_TYPE_SUBTITLE;
@@ -136,7 +158,9 @@ Result<int> Muxer::add_text(const TextSamples& text) {
   stream->time_base = text.time_base;
   av_dict_set(&stream->metadata, "language", text.language.c_str(), 0);
   // Matroska's name of a track, and mp4's.
-  av_dict_set(&stream->metadata, is("mp4") ? "handler_name" : "title", text.name.c_str(), 0);
+  const std::string name = name_with_speaker(text.name, labels.speaker);
+  const std::string shown = is("mp4") ? name : title_with_tag(name, labels.language);
+  av_dict_set(&stream->metadata, is("mp4") ? "handler_name" : "title", shown.c_str(), 0);
   text_tracks_.push_back({stream, text.time_base});
   return int(text_tracks_.size()) - 1;
 }
@@ -163,24 +187,26 @@ Result<void> Muxer::write(AVPacket& packet, const Track& track) {
   return check(av_interleaved_write_frame(context_, &packet));
 }
 
-Result<void> Muxer::write_unit(const fba::AccessUnit& unit) {
-  const std::size_t prefix = is("mpegts") && unit.intra ? face_->config.size() : 0;
+Result<void> Muxer::write_unit(const fba::AccessUnit& unit, int number) {
+  const Face& face = faces_[std::size_t(number)];
+  const std::size_t prefix = is("mpegts") && unit.intra ? face.units->config.size() : 0;
   const int status = av_new_packet(packet_.get(), int(prefix + unit.bytes.size()));
   if (status < 0) return av::no_memory();
-  if (prefix > 0) std::memcpy(packet_->data, face_->config.data(), prefix);
+  if (prefix > 0) std::memcpy(packet_->data, face.units->config.data(), prefix);
   std::memcpy(packet_->data + prefix, unit.bytes.data(), unit.bytes.size());
   packet_->pts = packet_->dts = unit.time;
   packet_->duration = unit.duration;
   if (unit.intra) packet_->flags |= AV_PKT_FLAG_KEY;
-  return write(*packet_, face_track_);
+  return write(*packet_, face.track);
 }
 
-Result<void> Muxer::write_sound(const AudioPacket& packet) {
-  Result<void> copied = copy_packet(packet, sound_, *packet_);
+Result<void> Muxer::write_sound(const AudioPacket& packet, int number) {
+  const Sound& sound = sounds_[std::size_t(number)];
+  Result<void> copied = copy_packet(packet, sound.format, *packet_);
   if (!copied) return copied;
-  packet_->pts += sound_shift_;
-  packet_->dts += sound_shift_;
-  return write_packet(*packet_);
+  packet_->pts += sound.shift;
+  packet_->dts += sound.shift;
+  return write(*packet_, sound.track);
 }
 
 Result<void> Muxer::write_picture(const VideoPacket& picture) {

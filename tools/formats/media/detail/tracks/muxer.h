@@ -14,6 +14,7 @@
 #include "tools/formats/media/detail/tracks/text_samples.h"
 #include "tools/formats/media/detail/tracks/unit_facts.h"
 #include "tools/formats/media/encoded_audio.h"
+#include "tools/formats/media/track_labels.h"
 #include "tools/formats/media/video.h"
 
 namespace animeme::media {
@@ -31,22 +32,26 @@ class Muxer {
   /// Adds the face stream. `units` must outlive the muxer; it has one at least, whose duration
   /// tells the rate. `facts` are those of all units; nullopt: they are not known yet, and the
   /// decoder configuration is left open.
-  Result<void> add_face(const fba::AccessUnits& units, const std::optional<BufferFacts>& facts);
+  /// Several faces and sounds are numbered from 0, in the order in which they are added; the first
+  /// of each kind is the default of the file.
+  Result<void> add_face(const fba::AccessUnits& units, const std::optional<BufferFacts>& facts,
+                        const TrackLabels& labels = {});
   /// Adds the pictures; before the face, so that players choose them. `video` must outlive the
   /// muxer.
   Result<void> add_video(const EncodedVideo& video);
   /// Adds a stream with these parameters and packet times in `time_base`.
   Result<void> add_stream(const AVCodecParameters& parameters, AVRational time_base);
   /// Adds a stream of coded sound; `bit_rate` 0: not known.
-  Result<void> add_sound(const AudioFormat& format, std::int64_t bit_rate);
+  Result<void> add_sound(const AudioFormat& format, std::int64_t bit_rate,
+                         const TrackLabels& labels = {});
 
   /// Adds a text behind them; its number for write_text().
-  Result<int> add_text(const TextSamples& text);
+  Result<int> add_text(const TextSamples& text, const TrackLabels& labels = {});
 
   /// Streams are complete. Options that the format does not know are an error (internal).
   Result<void> write_header(av::Options& options);
-  Result<void> write_unit(const fba::AccessUnit& unit);
-  Result<void> write_sound(const AudioPacket& packet);
+  Result<void> write_unit(const fba::AccessUnit& unit, int face = 0);
+  Result<void> write_sound(const AudioPacket& packet, int sound = 0);
   Result<void> write_picture(const VideoPacket& packet);
   Result<void> write_text(const TextSample& sample, int text);
   /// Takes the packet's content. Times in the time_base given to add_stream().
@@ -66,6 +71,16 @@ class Muxer {
     AVRational base{1, 1};  // of the times that come in
   };
   Muxer() = default;
+  struct Face {
+    const fba::AccessUnits* units = nullptr;
+    Track track;
+  };
+  struct Sound {
+    AudioFormat format;
+    std::int64_t shift = 0;  // samples
+    Track track;
+  };
+  void label(AVStream& stream, const TrackLabels& labels, const char* kind);
   Result<void> check(int status);
   Result<void> write(AVPacket& packet, const Track& track);
   bool is(const char* format) const;
@@ -73,11 +88,10 @@ class Muxer {
   std::unique_ptr<OutputStream> out_;
   AVFormatContext* context_ = nullptr;
   av::Packet packet_;
-  const fba::AccessUnits* face_ = nullptr;
-  Track face_track_, video_track_, other_track_;
+  std::vector<Face> faces_;
+  std::vector<Sound> sounds_;
+  Track video_track_, other_track_;
   std::vector<Track> text_tracks_;
-  AudioFormat sound_;
-  std::int64_t sound_shift_ = 0;  // samples
 };
 
 }  // namespace animeme::media

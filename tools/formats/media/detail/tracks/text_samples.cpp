@@ -8,6 +8,7 @@
 
 #include "tools/formats/media/detail/mp4/box_writer.h"
 #include "tools/formats/media/detail/mp4/boxes.h"
+#include "tools/formats/media/detail/tracks/track_names.h"
 
 namespace animeme::media {
 namespace {
@@ -34,18 +35,6 @@ std::vector<std::uint8_t> text_sample_entry() {
   out.u8(unsigned(kFont.size())), out.text(kFont);
   out.end();
   return out.bytes();
-}
-
-// Matroska has the bibliographic codes of ISO 639-2 where there are two.
-std::string bibliographic(const std::string& language) {
-  static constexpr std::array<std::string_view, 20> kBoth = {
-      "sqialb", "hyearm", "eusbaq", "myabur", "zhochi", "cescze", "nlddut",
-      "frafre", "katgeo", "deuger", "ellgre", "islice", "mkdmac", "mrimao",
-      "msamay", "fasper", "ronrum", "slkslo", "bodtib", "cymwel"};
-  for (const std::string_view both : kBoth) {
-    if (both.substr(0, 3) == language) return std::string(both.substr(3));
-  }
-  return language;
 }
 
 // Without <b>, </i>, <00:01.000> and the like; WebVTT's entities as characters.
@@ -144,7 +133,7 @@ TextSamples subrip_samples(const TextTrack& track) {
   TextSamples out{AV_CODEC_ID_SUBRIP,
                   {1, kMatroskaTicks},
                   clean_text(track.name),
-                  bibliographic(track.language),
+                  bibliographic_code(track.language),
                   {},
                   {}};
   for (const TextCue& cue : track.cues) {
@@ -203,7 +192,7 @@ void hide_texts(std::span<std::uint8_t> moov) {
 std::string name_of_text(const AVStream& stream) {
   // libavformat tells a handler of each track of an mp4; a title, if there is one, is meant.
   const std::string title = tag_of(stream, "title");
-  return title.empty() ? tag_of(stream, "handler_name") : title;
+  return name_without_speaker(title.empty() ? tag_of(stream, "handler_name") : title);
 }
 
 std::string language_of_text(const AVStream& stream) {
