@@ -17,7 +17,7 @@
 namespace animeme::batch {
 
 /// The columns of a manifest.
-inline constexpr std::array<std::string_view, 18> kColumns = {"id",
+inline constexpr std::array<std::string_view, 19> kColumns = {"id",
                                                               "text",
                                                               "text_file",
                                                               "script",
@@ -29,6 +29,7 @@ inline constexpr std::array<std::string_view, 18> kColumns = {"id",
                                                               "tts",
                                                               "model",
                                                               "head",
+                                                              "over",
                                                               "options",
                                                               "encode_options",
                                                               "render_options",

@@ -116,7 +116,7 @@ void add_value(const Row& row, const char* column, const char* option, Words& li
 
 Words speech_words(const Row& row) {
   Words line;
-  for (const char* one : {"text", "script", "audio", "transcript", "tts", "model"}) {
+  for (const char* one : {"text", "script", "audio", "transcript", "tts", "model", "over"}) {
     add_value(row, one, ("--" + std::string(one)).c_str(), line);
   }
   add_value(row, "text_file", "--text-file", line);
@@ -170,7 +170,7 @@ Result<Plan> plan_row(const Row& row, const std::string& stage) {
   Result<std::vector<Wanted>> wanted = read_outputs(row, speech);
   if (!wanted) return wanted.error();
   Plan plan;
-  for (const char* one : {"text_file", "script", "audio", "input", "model", "head"}) {
+  for (const char* one : {"text_file", "script", "audio", "input", "model", "head", "over"}) {
     std::error_code unknown;
     const std::string path(row.at(one));
     const bool named = is_one_of(one, {"model", "head"});

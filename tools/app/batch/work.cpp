@@ -198,7 +198,8 @@ Result<Row> fetched(const Row& row, const Shared& shared, const std::string& sta
   int number = 0;
   for (auto& [column, value] : local.values) {
     const bool file = column == "audio" || column == "script" || column == "text_file" ||
-                      column == "input" || column == "model" || column == "head";
+                      column == "input" || column == "model" || column == "head" ||
+                      column == "over";
     if (!file || value.find("://") == std::string::npos) continue;
     const std::string place = stage + "/.fetched" + std::to_string(number++) +
                               tools::extension_of(value.substr(0, value.find_first_of("?#")));

@@ -317,9 +317,9 @@ void add_options(OptionTable& cli, MuxOptions& options) {
       ->required();
   cli.add(
          "--track", options.tracks,
-         "A language or a person of a file with several, in place of the arguments: "
-         "lang=de,speaker=Ann,face=de.fba,audio=de.wav,words=de.vtt; may be repeated, the first is "
-         "the default (.mp4 .mkv)")
+         "A language or a person of a file with several, in place of the arguments, separated by "
+         "commas: lang=de and speaker=Ann, then face=de.fba, audio=de.wav and words=de.vtt; may be "
+         "repeated, the first is the default (.mp4 .mkv .m3u8 .mpd)")
       ->value("LABELS,FILES")
       ->check(problem_of<read_mux_track>)
       ->one_at_a_time();

@@ -14,7 +14,7 @@ namespace animeme::tools {
 Result<dam::KeptShares> parse_kept_shares(const std::string& text) {
   dam::KeptShares shares;
   std::string rest = text;
-  while (!rest.empty()) {
+  for (bool first = true; first || !rest.empty(); first = false) {
     const std::size_t comma = std::min(rest.find(','), rest.size());
     const std::string one = rest.substr(0, comma);
     rest.erase(0, comma + 1);
@@ -45,7 +45,7 @@ void add_over_options(OptionTable& cli, OverChoice& choice, bool bends) {
   cli.add("--over", choice.path,
           bends ? "Keep the face of this performance (a file with a face) under the new lips"
                 : "Keep the face of this performance (a file with a face) under the lips; repeats")
-      ->value("PERFORMANCE");
+      ->value("FILE");
   cli.add("--keep", choice.keep,
           "Shares of the performance to keep, by part as edit names them: lips=0.5,brows=0; "
           "default: all of it but jaw and tongue")
@@ -76,11 +76,13 @@ Result<dam::Performance> read_performance(const std::string& path) {
 Result<void> read_over(const OverChoice& choice, std::shared_ptr<const dam::Performance>& over,
                        dam::KeptShares& keep) {
   if (choice.path.empty()) return {};
-  const auto shares = parse_kept_shares(choice.keep);
-  if (!shares) return shares.error();
+  if (!choice.keep.empty()) {
+    const auto shares = parse_kept_shares(choice.keep);
+    if (!shares) return shares.error();
+    keep = *shares;
+  }
   auto performance = read_performance(choice.path);
   if (!performance) return performance.error();
-  keep = *shares;
   over = std::make_shared<const dam::Performance>(std::move(*performance));
   return {};
 }

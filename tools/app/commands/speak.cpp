@@ -50,6 +50,7 @@ struct SpeakOptions {
   bool no_closure = false;
   IdleOptions idle;  // neither on nor off: where it can be had
   OverChoice over;
+  std::string fit;                                      // range of --fit
   std::shared_ptr<const dam::Performance> performance;  // of --over
   dam::KeptShares keep;
   std::optional<dam::Prosody> prosody;  // of the voice, for it
@@ -238,6 +239,12 @@ Json language_json(const voice::SpokenLanguage& part) {
           {"voice", part.voice}, {"text", part.text}, {"by_itself", part.by_itself}};
 }
 
+Json cue_json(const speech::FittedCue& one) {
+  return {{"text", one.cue.text}, {"start", one.cue.start},      {"end", one.cue.end},
+          {"said", one.start},    {"seconds", one.seconds},      {"speed", one.speed},
+          {"late", one.late},     {"pauses_cut", one.shortened}, {"cut_characters", one.cut}};
+}
+
 Json over_json(const dam::OverReport& over) {
   return {{"end", over.end},
           {"moments", json_list(over.time.moments(),
@@ -279,6 +286,7 @@ void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam
                {"warnings", spoken.warnings}};
   if (options.outputs.size() > 1) json["outputs"] = options.outputs;
   if (over) json["over"] = over_json(*over);
+  if (!spoken.cues.empty()) json["cues"] = json_list(spoken.cues, cue_json);
   if (heard) {
     json["warnings"] = spoken.heard->warnings;
     json["heard"] = json_list(heard_phones(spoken), [](const RecognisedPhone& one) -> Json {
@@ -422,6 +430,12 @@ Result<int> run(SpeakOptions& options) {
     if (!options.expressions.empty() && curves)
       return usage_error("--expressions is for FAPs, which .csv and .json do not hold");
   }
+  if (!options.fit.empty()) {
+    if (!options.spoken.audio.empty()) return usage_error("--fit makes the sound that --audio has");
+    const auto range = speech::parse_fit_range(options.fit);
+    if (!range) return range.error();
+    options.spoken.fit = *range;
+  }
   Result<fap::Rate> rate = fap::parse_rate(options.rate);
   if (!rate) return rate.error();
   Result<dam::Model> model = speech::read_model(options.model);
@@ -506,6 +520,12 @@ void add_options(OptionTable& cli, SpeakOptions& options) {
   add_tongue_option(cli, options.tongue);
   add_mood_option(cli, options.mood);
   add_over_options(cli, options.over, true);
+  cli.add("--fit", options.fit,
+          "Speak the subtitles of --script with a voice, each in its time, at 0.8-1.3 of its usual "
+          "speed (or another range); what does not fit is reported")
+      ->value("SLOWEST-FASTEST")
+      ->check(problem_of<speech::parse_fit_range>)
+      ->needs("--script");
   cli.add(
          "--expressions", options.expressions,
          "Also code moods as FAP 2, for players that support only that: 'instead' of brows, cheeks "
@@ -532,10 +552,11 @@ void add_options(OptionTable& cli, SpeakOptions& options) {
           "with a lower confidence, 0 to 1; 0: accept any transcript")
       ->between(0.0, 1.0);
   cli.add("--json", options.json, "Print a machine-readable summary");
-  cli.show_in_help_all("Details of coding and alignment",
-                       "--rms --kbps --default-ranges --intra-seconds --audio-codec "
-                       "--audio-bitrate --exact --min-confidence "
-                       "--no-tongue --visemes --expressions --look --still --seed --keep --bend");
+  cli.show_in_help_all(
+      "Details of coding and alignment",
+      "--rms --kbps --default-ranges --intra-seconds --audio-codec "
+      "--audio-bitrate --exact --min-confidence "
+      "--no-tongue --visemes --expressions --look --still --seed --keep --bend --fit");
 }
 
 }  // namespace

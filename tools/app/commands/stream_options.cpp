@@ -169,7 +169,7 @@ void add_options(OptionTable& cli, StreamOptions& options) {
       "--look --still --seed --no-tongue --hear-pcm --mtu --repeat --repeat-after "
       "--bundle --max-clients --max-per-address --allow-origin --host-name --delay --intra-seconds "
       "--points --shape-name --shape-names --gain --copy --quant --rms --kbps --small "
-      "--default-ranges --encoder-delay --stats --keep --pcm --style --fast "
+      "--default-ranges --encoder-delay --stats --keep --track --pcm --style --fast "
       "--sharpness "
       "--articulate "
       "--audio-codec --audio-bitrate");

@@ -1,5 +1,8 @@
 #include "tools/speech/talking/spoken.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <utility>
 
@@ -69,6 +72,65 @@ Result<Spoken> follow_script(const SpokenOptions& options, const tools::Log& log
   }
   spoken.audio = std::move(*audio);
   spoken.recording = again(options.audio);
+  return spoken;
+}
+
+// One cue of subtitles, without silence around it.
+Result<voice::Speech> speak_cue(const SpokenOptions& options, const std::string& written,
+                                double speed, const tools::Log& log) {
+  const std::string text = text_to_say(written, options.script_reading.speak_marks, log);
+  if (!options.tts.empty()) {
+    Result<TimedSpeech> timed = run_voice_command(text, voice_command(options), log);
+    if (!timed) return timed.error();
+    return std::move(timed->speech);
+  }
+  voice::VoiceOptions settings;
+  settings.language = options.language;
+  settings.words_per_minute =
+      std::clamp(int(std::lround(options.words_per_minute * speed)), 80, 450);
+  settings.pitch = options.pitch;
+  settings.lead_silence = settings.tail_silence = 0;
+  return voice::speak_text(text, settings);
+}
+
+Result<Spoken> speak_cues(const SpokenOptions& options, const tools::Log& log) {
+  tools::AtStep step(tools::Step::voice);
+  const Result<std::string> text = tools::read_text_file(options.script);
+  if (!text) return text.error();
+  const auto timings = scripts::read_labels(*text, options.script_reading);
+  if (!timings) return timings.error().in_file(options.script);
+  const auto cues = cues_of(*timings);
+  if (!cues) return cues.error().in_file(options.script);
+  const auto say = [&](const std::string& words, double speed) {
+    return speak_cue(options, words, speed, log);
+  };
+  Result<FittedSpeech> fitted = fit_cues(*cues, say, *options.fit);
+  if (!fitted) return fitted.error().in_file(options.script);
+  for (std::size_t i = 0; i < fitted->cues.size(); ++i) {
+    const FittedCue& cue = fitted->cues[i];
+    if (cue.cut == 0) continue;
+    char told[160];
+    std::snprintf(told, sizeof told,
+                  ": subtitle %zu (at %.2f s) ends %.2f s late; cut %zu of its characters", i + 1,
+                  cue.cue.start, cue.late, cue.cut);
+    log.warn(options.script + told);
+  }
+  voice::Speech& speech = fitted->speech;
+  // Time to close the mouth.
+  constexpr double kTail = 0.4;
+  const double end = speech.audio.duration();
+  speech.audio.samples.resize(speech.audio.samples.size() +
+                              std::size_t(kTail * speech.audio.sample_rate));
+  speech.script.phones.push_back(
+      {std::max(end, speech.script.duration()), end + kTail, std::string(dam::kSilence), {}});
+  step.made(2 * speech.audio.samples.size());
+  Spoken spoken{
+      std::move(speech.script), std::move(speech.audio), speech.voice, TimesFrom::voice, {}, {}};
+  spoken.languages = std::move(speech.languages);
+  spoken.moods = std::move(speech.moods);
+  spoken.warnings = std::move(speech.warnings);
+  spoken.cues = std::move(fitted->cues);
+  for (const std::string& warning : spoken.warnings) log.warn(warning);
   return spoken;
 }
 
@@ -176,6 +238,7 @@ Result<Spoken> get_spoken(const SpokenOptions& options, const tools::Log& log) {
     return spoken;
   }
   if (options.has_text) return speak(options, options.text, log);
+  if (!options.script.empty() && options.fit) return speak_cues(options, log);
   if (!options.script.empty()) return follow_script(options, log);
   if (options.listen && !options.has_transcript) return hear_voice(options, log);
   return align_voice(options, log);

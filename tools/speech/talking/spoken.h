@@ -16,6 +16,7 @@
 #include "fap/result.h"
 #include "tools/formats/files/log.h"
 #include "tools/formats/media/pcm.h"
+#include "tools/speech/talking/cue_voice.h"
 #include "tools/speech/talking/timed_sound.h"
 #include "tools/speech/talking/voice_command.h"
 #include "tools/speech/talking/voice_file.h"
@@ -44,6 +45,9 @@ struct SpokenOptions {
   int words_per_minute = 175;          ///< of a synthetic voice, 80 to 450
   int pitch = 50;                      ///< of a synthetic voice, 0 to 100
   double most_seconds = kMostSeconds;  ///< longest script
+  /// A script of subtitles is spoken by a voice, each cue in its time (cue_voice.h), within this
+  /// range of speed. A TTS command has one speed. nullopt: the script has its sound elsewhere.
+  std::optional<FitRange> fit = std::nullopt;
 };
 
 /// Speech as phones, with its sound.
@@ -59,6 +63,7 @@ struct Spoken {
   std::vector<voice::SpeechMark> marks;          ///< of SSML
   std::vector<dam::MoodSpan> moods;              ///< of SSML, emoji and exclamation marks
   std::vector<std::string> warnings;             ///< about skipped or spelled words
+  std::vector<FittedCue> cues;                   ///< with SpokenOptions::fit
   /// The file that `audio` is one channel of; empty: synthetic speech, or the file cannot be read
   /// again (a pipe).
   std::string recording;
