@@ -89,7 +89,7 @@ inline Error error_at_bit(Code code, std::string message, std::int64_t bit) {
 }
 
 namespace internal {
-
+/// @cond internal
 // Out of line: every caller of a function that can fail would have its own copy of these, which was
 // a fifth of the time to compile the programs.
 #if defined(__GNUC__)
@@ -112,7 +112,7 @@ ANIMEME_OUT_OF_LINE inline void copy_to(Error* place, const Error& error) {
 #endif
 }
 #undef ANIMEME_OUT_OF_LINE
-
+/// @endcond
 }  // namespace internal
 
 /// A value of type T or an Error. Calling value() without one is a programming error and throws
@@ -130,12 +130,13 @@ class [[nodiscard]] Result {
   Result(const Error& error) : has_value_(false), none_() {  // NOLINT: implicit
     internal::copy_to(&error_, error);
   }
-  Result(Result&& other) noexcept : has_value_(other.has_value_), none_() {  ///< moves
+  /// Moves.
+  Result(Result&& other) noexcept : has_value_(other.has_value_), none_() {
     take(std::move(other));
   }
-  Result(const Result& other)  ///< copies
-      requires std::copy_constructible<T> : has_value_(other.has_value_),
-                                            none_() {
+  /// Copies, where T can be copied.
+  Result(const Result& other) requires std::copy_constructible<T> : has_value_(other.has_value_),
+                                                                    none_() {
     if (has_value_) {
       std::construct_at(&value_, other.value_);
     } else {

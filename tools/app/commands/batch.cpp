@@ -247,7 +247,8 @@ const Command kBatch{
     "eight\n"
     "  animeme batch clips.jsonl -o out --join                       # after all of them\n"
     "  ls *.wav | animeme batch - --form list -o out --set outputs=\".mp4 render:.video.mp4\"\n"
-    "Columns: id text text_file script audio transcript input lang voice tts model head over outputs\n"
+    "Columns: id text text_file script audio transcript input lang voice tts model head over "
+    "outputs\n"
     "options encode_options render_options export_options align_options",
     set_up<BatchOptions>};
 
