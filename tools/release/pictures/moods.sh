@@ -1,5 +1,5 @@
 #!/bin/sh
-# Contact sheets to look at: one sentence in seven moods, looks and lids, and a dialogue of listeners, a row for each head.
+# Contact sheets to look at: one sentence in seven moods, then looks and lids, a row for each head.
 # Pictures of avatars whose licences forbid it are not committed. Needs ffmpeg.
 #   tools/release/pictures/moods.sh build/release/bin/animeme OUTFOLDER woman man me.glb vroid.vrm ...
 set -eu
