@@ -125,9 +125,10 @@ TEST_F(Voices, PushPiecesToALiveHead) {
       animeme({"stream", "--say-json", "-", "--to", "udp://127.0.0.1:9", "--json"}, pieces);
   EXPECT_EQ(result.exit_code, 0) << result.err;
   const test::Json json = test::Json::parse(result.out, nullptr, false);
-  EXPECT_EQ(json["lines"], 2);
-  EXPECT_NEAR(json["seconds"].get<double>(), 2.2, 0.25);
-  EXPECT_THAT(result.err, testing::AllOf(HasSubstr("line 2"), HasSubstr("line 3")));
+  EXPECT_EQ(json["lines"], 3) << "sound is never left out";
+  EXPECT_NEAR(json["seconds"].get<double>(), 3.1, 0.25);
+  EXPECT_THAT(result.err, testing::AllOf(HasSubstr("line 2, \"\": its script cannot be read"),
+                                         HasSubstr("line 3")));
 }
 
 TEST_F(Voices, SpeakLinesOfALiveHead) {

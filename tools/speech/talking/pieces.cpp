@@ -35,13 +35,16 @@ constexpr std::size_t kMostUtterances = 64;  // that are kept when all of them h
 constexpr double kLeastAligned = 0.25;       // seconds of sound
 constexpr double kMostLetters = 25;          // of a text, for each second of its sound
 
+struct Piece;
+
 // Times as they came.
 struct Labels {
   std::string text;
-  double piece = 0;    // where the sound begins that they came with
-  double length = 0;   // of that sound; 0: they came alone
-  bool given = false;  // certainly times
+  double piece = 0;            // where the sound begins that they came with
+  double length = 0;           // of that sound; 0: they came alone
+  bool given = false;          // certainly times
   From from = From::unknown;
+  std::weak_ptr<Piece> owner = {};  // with the sound that they came with
 };
 
 struct Utterance;
@@ -51,8 +54,9 @@ struct Piece {
   double start = 0;  // in it, seconds
   std::shared_ptr<const media::Pcm> sound;
   std::string text, language;
-  Labels labels;  // of a piece without sound
-  std::string doubt;
+  Labels labels;           // of a piece without sound
+  std::string doubt;       // of its times, which another piece has read
+  bool made = false;       // its line was, at least once
   bool aligned = false;    // its text, or that was tried
   bool timed = false;      // it came with times
   bool released = false;   // forget() was called
@@ -257,6 +261,7 @@ Result<PieceStream::Taken> PieceStream::Impl::speech_of(
                 message.times_from};
   if (labels.from == From::unknown && !utterance->named) labels.from = From::piece;
   if (!labels.text.empty()) {
+    labels.owner = piece;
     (piece->sound ? utterance->unread.emplace_back() : piece->labels) = std::move(labels);
   }
   piece->text = std::move(message.text);
@@ -371,12 +376,15 @@ void PieceStream::forget(std::uint64_t key) {
   while (!all.empty() && all.front()->released && all.front()->end() < old) all.pop_front();
 }
 
-// Gives times their place in the utterance.
+// Gives times their place in the utterance. Doubts are told with the piece that the times came
+// with, if it has still to be made.
 void PieceStream::Impl::read(Utterance& utterance, const std::vector<Labels>& unread,
                              const ScriptInput& how, std::string& doubt) {
-  tools::Log log;
-  log.warn = [&doubt](const std::string& warning) { add_sentence(doubt, warning); };
   for (const Labels& labels : unread) {
+    const std::shared_ptr<Piece> owner = labels.owner.lock();
+    std::string& told = owner && !owner->made ? owner->doubt : doubt;
+    tools::Log log;
+    log.warn = [&told](const std::string& warning) { add_sentence(told, warning); };
     const auto timings = scripts::read_labels(labels.text, how.reading);
     if (!timings) {
       log.warn((labels.given ? "its script cannot be read (" : "its members are not timings (") +
@@ -450,7 +458,9 @@ Result<SpokenLine> PieceStream::Impl::make_sound(Piece& piece) {
   SpokenLine line;
   line.joins = true;
   line.text = piece.text;
+  piece.made = true;
   read(utterance, unread, how, line.doubt);
+  add_sentence(line.doubt, std::exchange(piece.doubt, {}));
   tools::Log log;
   log.warn = [&line](const std::string& warning) { add_sentence(line.doubt, warning); };
   const std::string text = text_to_say(piece.text, input.reading.speak_marks, log);
