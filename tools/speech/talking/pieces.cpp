@@ -40,9 +40,9 @@ struct Piece;
 // Times as they came.
 struct Labels {
   std::string text;
-  double piece = 0;            // where the sound begins that they came with
-  double length = 0;           // of that sound; 0: they came alone
-  bool given = false;          // certainly times
+  double piece = 0;    // where the sound begins that they came with
+  double length = 0;   // of that sound; 0: they came alone
+  bool given = false;  // certainly times
   From from = From::unknown;
   std::weak_ptr<Piece> owner = {};  // with the sound that they came with
 };
