@@ -369,9 +369,20 @@ Result<Ending> run_batch(const Settings& given, const Watch& watch) {
   const auto index_of = [&](std::string_view id) {
     return shard_of(id, settings.shards) == settings.shard ? &*index : nullptr;
   };
-  Result<Totals> totals = put_in_order(*manifest, index_of, path,
-                                       out + "/" + report_name(settings.shard, settings.shards));
+  // Made in the folder that the next run removes, so that nothing of a killed one stays.
+  fs::create_directories(settings.shared.stage, failed);
+  const std::string report = report_name(settings.shard, settings.shards);
+  const std::string staged =
+      settings.shared.stage + "/" + index_name(settings.shard, settings.shards);
+  const std::string staged_report = settings.shared.stage + "/" + report;
+  Result<Totals> totals = put_in_order(*manifest, index_of, staged, staged_report);
   if (!totals) return totals.error();
+  fs::rename(staged_report, out + "/" + report, failed);
+  if (!failed) fs::rename(staged, path, failed);
+  if (failed) {
+    return make_error(Code::io, "cannot be written: " + failed.message()).in_file(path);
+  }
+  fs::remove_all(settings.shared.stage, failed);
   ending.totals = *totals;
   return ending;
 }

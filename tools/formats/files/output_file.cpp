@@ -203,6 +203,18 @@ Result<void> try_output(const std::string& path) {
   }
   constexpr std::array<std::uint8_t, 4096> kBlock =
       {};  // where not even that is free, the disk is full
+#ifdef O_TMPFILE
+  // Without a name nothing stays, even if the program is killed here.
+  if (::lstat(path.c_str(), &there) != 0 && errno == ENOENT) {
+    const std::string folder = std::filesystem::path(path).parent_path().string();
+    const int nameless =
+        ::open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
+    const bool takes =
+        nameless >= 0 && ::write(nameless, kBlock.data(), kBlock.size()) == ssize_t(kBlock.size());
+    if (nameless >= 0) ::close(nameless);
+    if (takes) return {};
+  }
+#endif
   return OutputFile(path).write(kBlock);
 }
 
