@@ -55,7 +55,7 @@ struct Talk {
 Talk talk(double gain, double noise) {
   Talk all;
   std::minstd_rand random(3);
-  std::normal_distribution<float> hiss(0, float(noise));
+  std::normal_distribution<float> hiss(0, 1);  // a deviation of 0 is not allowed
   const auto silence = [&] { all.samples.insert(all.samples.end(), kRate, 0.0f); };
   silence();
   for (const char* text : {"I have been thinking about our trip to Norway all day long.",
@@ -76,7 +76,7 @@ Talk talk(double gain, double noise) {
     all.samples.insert(all.samples.end(), sound->samples.begin(), sound->samples.end());
     silence();
   }
-  for (float& sample : all.samples) sample = float(gain) * sample + hiss(random);
+  for (float& sample : all.samples) sample = float(gain) * sample + float(noise) * hiss(random);
   return all;
 }
 
@@ -122,10 +122,11 @@ TEST(VoiceActivity, FindsSentencesAtAnyLevelAndInNoise) {
 TEST(VoiceActivity, SteadyNoiseIsNoSpeech) {
   for (const double size : {0.0, 0.0005, 0.005, 0.05, 0.3}) {
     std::minstd_rand random(11);
-    std::normal_distribution<float> hiss(0, float(size));
+    std::normal_distribution<float> hiss(0, 1);
     std::vector<float> samples(std::size_t(30) * kRate);
     for (std::size_t i = 0; i < samples.size(); ++i)
-      samples[i] = size > 0 ? hiss(random) : 0.2f * float(std::sin(0.0196 * double(i)));
+      samples[i] =
+          size > 0 ? float(size) * hiss(random) : 0.2f * float(std::sin(0.0196 * double(i)));
     for (const Part& part : heard(samples, 0.01)) EXPECT_LT(part.end, 20) << size;
     EXPECT_LE(heard(samples, 0.01).size(), 1u) << size << ", 0 is a hum of 50 Hz";
   }
