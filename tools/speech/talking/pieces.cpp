@@ -74,6 +74,7 @@ struct Utterance {
   bool text_told = false;
   std::string language;
   bool over = false;
+  bool dropped = false;     // nothing finds it by its name
   bool told_alone = false;  // times came in messages of their own
   std::vector<Labels> unread;
   std::deque<std::shared_ptr<Piece>> pieces;  // with sound, ascending
@@ -96,6 +97,14 @@ bool is_file(std::span<const std::uint8_t> bytes) {
 void add_sentence(std::string& all, const std::string& more) {
   if (more.empty() || all.find(more) != std::string::npos) return;
   all += (all.empty() ? "" : "; ") + more;
+}
+
+// Pieces and their utterance hold each other, until all of a dropped one has been spoken.
+void drop(Utterance& utterance) {
+  utterance.dropped = true;
+  const bool spoken = std::all_of(utterance.pieces.begin(), utterance.pieces.end(),
+                                  [](const auto& piece) { return piece->released; });
+  if (spoken) utterance.pieces.clear();
 }
 
 // Whether a text may be what is said in so much sound, and not in more of it.
@@ -181,6 +190,7 @@ std::shared_ptr<Utterance> PieceStream::Impl::utterance_of(const PieceMessage& m
   std::shared_ptr<Utterance>& found = utterances[message.utterance];
   // A name may be used again; what has no name goes on after its end as another one.
   if (!found || (found->over && message.has_sound())) {
+    if (found) drop(*found);
     found = std::make_shared<Utterance>();
     found->number = ++numbers;
     found->named = !message.utterance.empty();
@@ -200,7 +210,9 @@ void PieceStream::Impl::prune() {
     if (!spoken || one->first.empty()) continue;
     if (oldest == utterances.end() || one->second->number < oldest->second->number) oldest = one;
   }
-  if (oldest != utterances.end()) utterances.erase(oldest);
+  if (oldest == utterances.end()) return;
+  drop(*oldest->second);
+  utterances.erase(oldest);
 }
 
 Result<media::Pcm> PieceStream::Impl::decode(PieceMessage& message, Utterance& utterance) {
@@ -282,7 +294,11 @@ PieceStream::PieceStream(const voice::VoiceOptions& voice, const ScriptInput& in
   impl_->input = input;
 }
 
-PieceStream::~PieceStream() = default;
+PieceStream::~PieceStream() {
+  const std::lock_guard lock(impl_->mutex);
+  for (const auto& [name, utterance] : impl_->utterances) utterance->pieces.clear();
+  for (const auto& [key, piece] : impl_->pieces) piece->utterance->pieces.clear();
+}
 
 Result<PieceStream::Taken> PieceStream::add(std::string_view json) {
   Result<PieceMessage> read = read_message(json);
@@ -374,6 +390,7 @@ void PieceStream::forget(std::uint64_t key) {
   auto& all = piece->utterance->pieces;
   const double old = piece->end() - kOldSound;
   while (!all.empty() && all.front()->released && all.front()->end() < old) all.pop_front();
+  if (piece->utterance->dropped) drop(*piece->utterance);
 }
 
 // Gives times their place in the utterance. Doubts are told with the piece that the times came
