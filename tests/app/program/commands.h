@@ -33,4 +33,17 @@ inline fap::Sequence read_clip(const std::string& path) {
   return clip ? *clip : fap::Sequence{};
 }
 
+// What stands between ```sh and ```.
+inline std::string fenced_commands(const std::string& text) {
+  std::string commands;
+  std::size_t at = 0;
+  while ((at = text.find("\n```sh\n", at)) != std::string::npos) {
+    at += 7;
+    const std::size_t end = text.find("\n```", at);
+    commands += text.substr(at, end + 1 - at);
+    at = end + 4;
+  }
+  return commands;
+}
+
 }  // namespace animeme::test

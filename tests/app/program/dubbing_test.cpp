@@ -13,21 +13,8 @@ namespace dubbing_test {
 
 namespace fs = std::filesystem;
 
-// What stands between ```sh and ```.
-std::string fenced(const std::string& text) {
-  std::string commands;
-  std::size_t at = 0;
-  while ((at = text.find("\n```sh\n", at)) != std::string::npos) {
-    at += 7;
-    const std::size_t end = text.find("\n```", at);
-    commands += text.substr(at, end + 1 - at);
-    at = end + 4;
-  }
-  return commands;
-}
-
 TEST(Dubbing, EachCommandRuns) {
-  const std::string commands = fenced(slurp(fs::path(kSourceFolder) / "tools/dubbing.md"));
+  const std::string commands = fenced_commands(slurp(fs::path(kSourceFolder) / "tools/dubbing.md"));
   ASSERT_THAT(commands, ::testing::HasSubstr("animeme mux"));
   const TempDir dir;
   spill(dir / "commands.sh", "set -eu\ncd " + quoted(dir.path().string()) +

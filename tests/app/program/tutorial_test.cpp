@@ -14,22 +14,9 @@ namespace tutorial_test {
 
 namespace fs = std::filesystem;
 
-// What stands between ```sh and ```.
-std::string commands_of(const std::string& text) {
-  std::string commands;
-  std::size_t at = 0;
-  while ((at = text.find("\n```sh\n", at)) != std::string::npos) {
-    at += 7;
-    const std::size_t end = text.find("\n```", at);
-    commands += text.substr(at, end + 1 - at);
-    at = end + 4;
-  }
-  return commands;
-}
-
 TEST(Tutorial, EachCommandRuns) {
   const fs::path root = data_dir().parent_path().parent_path();
-  const std::string commands = commands_of(slurp(root / "dam/tutorial.md"));
+  const std::string commands = fenced_commands(slurp(root / "dam/tutorial.md"));
   ASSERT_THAT(commands, ::testing::HasSubstr("animeme train me"));
   const TempDir dir;
   spill(dir / "commands.sh",

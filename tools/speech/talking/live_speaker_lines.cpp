@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "tools/formats/media/audio.h"
+#include "tools/speech/talking/line_news_internal.h"
 #include "tools/speech/talking/live_speaker_internal.h"
 
 namespace animeme::speech {
@@ -62,51 +63,28 @@ void LiveSpeaker::Impl::take_line() {
 }
 
 void LiveSpeaker::Impl::follow(const LineNews& news, double time) {
-  LineEvent event{.time = time, .line = news.line, .id = news.id};
-  switch (news.what) {
-    case LineNews::What::queued:
-      event.what = LineEvent::What::queued;
-      event.text = news.text;
-      break;
-    case LineNews::What::cancelled:
-      event.what = LineEvent::What::cancelled;
-      event.why = news.why;
-      if (news.mark) event.line = 0;
-      if (!news.part) break;
-      events.cancel_parts(std::move(event));
-      return;
-    case LineNews::What::word:
-      if (waiting && waiting->line.line == news.line && waiting->line.words) {
-        waiting->line.words->push_back({news.start, news.start + news.duration, news.text});
-      } else {
-        events.add_word(news.line, news.start, news.text, news.duration);
-      }
-      return;
-    case LineNews::What::look:
-      face.look(news.target);
-      return;
-    case LineNews::What::activity:
-      face.set_activity(news.activity);
-      return;
-    case LineNews::What::hear:
-      face.hear(news.voice);
-      return;
-    case LineNews::What::mood:
-      face.set_mood(news.mood);
-      return;
-    case LineNews::What::stopped:
-    case LineNews::What::dropped: {
-      const bool all = news.what == LineNews::What::stopped;
-      events.add({.what = all ? LineEvent::What::stopped : LineEvent::What::dropped, .time = time});
-      if (all) stop(news, time);
-      if (waiting && waiting->line.line < news.line) {
-        cancel(waiting->line, all ? "stopped" : "dropped");
-        waiting.reset();
-      }
-      return;
+  if (direct_face(face, news)) return;
+  if (news.what == LineNews::What::word) {
+    if (waiting && waiting->line.line == news.line && waiting->line.words) {
+      waiting->line.words->push_back({news.start, news.start + news.duration, news.text});
+    } else {
+      events.add_word(news.line, news.start, news.text, news.duration);
     }
+    return;
+  }
+  LineEvent event = event_of(news, time);
+  if (news.what == LineNews::What::cancelled && news.part) {
+    events.cancel_parts(std::move(event));
+    return;
   }
   events.add(std::move(event));
+  const bool all = news.what == LineNews::What::stopped;
+  if (!all && news.what != LineNews::What::dropped) return;
+  if (all) stop(news, time);
+  if (waiting && waiting->line.line < news.line) {
+    cancel(waiting->line, all ? "stopped" : "dropped");
+    waiting.reset();
+  }
 }
 
 void LiveSpeaker::Impl::cancel(const SpokenLine& line, const std::string& why) {

@@ -8,6 +8,7 @@
 #include "dam/maths/raised_cosine.h"
 #include "dam/signal/fap_signal.h"
 #include "tools/speech/talking/face_coding_internal.h"
+#include "tools/speech/talking/line_news_internal.h"
 #include "tools/speech/talking/live_sound.h"
 #include "tools/speech/talking/voice_driven_face.h"
 
@@ -188,48 +189,18 @@ void LiveVoice::Impl::reach_marks(bool all) {
 }
 
 void LiveVoice::Impl::follow(const LineNews& news, double time) {
-  LineEvent event{.time = time, .line = news.line, .id = news.id};
-  switch (news.what) {
-    case LineNews::What::queued:
-      event.what = LineEvent::What::queued;
-      event.text = news.text;
-      break;
-    case LineNews::What::cancelled:
-      event.what = LineEvent::What::cancelled;
-      event.why = news.why;
-      if (news.mark) event.line = 0;
-      break;
-    case LineNews::What::stopped:
-    case LineNews::What::dropped: {
-      const bool stopped = news.what == LineNews::What::stopped;
-      events.add(
-          {.what = stopped ? LineEvent::What::stopped : LineEvent::What::dropped, .time = time});
-      if (stopped) events.cut(time, news.line, "stopped");
-      for (const Mark& mark : marks) {
-        LineEvent cancelled{.what = LineEvent::What::cancelled, .time = time, .id = mark.id};
-        cancelled.why = stopped ? "stopped" : "dropped";
-        events.add(std::move(cancelled));
-      }
-      marks.clear();
-      discard(stopped);
-      return;
-    }
-    case LineNews::What::look:
-      life.look(news.target);
-      return;
-    case LineNews::What::activity:
-      life.set_activity(news.activity);
-      return;
-    case LineNews::What::hear:
-      life.hear(news.voice);
-      return;
-    case LineNews::What::mood:
-      life.set_mood(news.mood);
-      return;
-    default:
-      return;
+  if (news.what == LineNews::What::word || direct_face(life, news)) return;
+  events.add(event_of(news, time));
+  const bool stopped = news.what == LineNews::What::stopped;
+  if (!stopped && news.what != LineNews::What::dropped) return;
+  if (stopped) events.cut(time, news.line, "stopped");
+  for (const Mark& mark : marks) {
+    LineEvent cancelled{.what = LineEvent::What::cancelled, .time = time, .id = mark.id};
+    cancelled.why = stopped ? "stopped" : "dropped";
+    events.add(std::move(cancelled));
   }
-  events.add(std::move(event));
+  marks.clear();
+  discard(stopped);
 }
 
 // Nothing that was sent before is heard. `now`: neither is what has a place already.
