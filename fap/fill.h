@@ -52,6 +52,10 @@ struct FillOptions {
   /// Convert FAP 1 and 2 to low-level FAPs (fap/expand.h), for players that support no others.
   /// Low-level FAPs that are sent or held override those of the shapes.
   bool expand = false;
+  /// With `expand`: FAP 2 stays as it is, also beside other FAPs, for heads that show it by faces
+  /// of their own (head::control_values()); only FAP 1 is converted. What a stream defines as an
+  /// expression (Expression::def) is not used then.
+  bool keep_expressions = false;
   /// Include low-level FAPs that were never sent and cannot be derived, at 0 (neutral), unless FAP
   /// 1 and 2 are the only ones. This is what a receiver of a coded stream shows: an encoder omits
   /// FAPs that stay at 0.

@@ -63,7 +63,15 @@ const Frame& Receiver::hold() {
 
 const Frame& Receiver::expand() {
   if (!expander_) expander_.emplace();
-  expanded_ = expander_->expand(shown_);
+  if (options_.keep_expressions && shown_.mask[2]) {
+    Frame others = shown_;
+    others.mask.reset(2);
+    expanded_ = expander_->expand(others);
+    expanded_.mask.set(2);
+    expanded_.expression = shown_.expression;
+  } else {
+    expanded_ = expander_->expand(shown_);
+  }
   ever_ |= expanded_.mask;
   expanded_.mask = ever_;
   return expanded_;
@@ -78,6 +86,7 @@ Mask Receiver::mask() const {
   if (options_.complete && !high_level_alone) {
     for (std::size_t fap = kFirstLowLevel; fap <= kFapCount; ++fap) low.set(fap);
   }
+  if (options_.expand && options_.keep_expressions && mask[2]) low.set(2);
   return options_.keep_high_level || high_level_alone ? mask | low : low;
 }
 

@@ -1,4 +1,5 @@
 #include "fap/fill.h"
+#include "fap/expand.h"
 
 #include <gtest/gtest.h>
 
@@ -148,6 +149,28 @@ TEST(Fill, HighLevelFapsOnlyAlone) {
   EXPECT_EQ(kept.frames[2].mask.count(), 3u);
   EXPECT_EQ(kept.frames[2].expression, both.expression);
   EXPECT_EQ(kept.frames[0].expression, Expression{});
+}
+
+TEST(Fill, ExpressionsMayStayForHeadsWithTheirOwn) {
+  Frame first = make_frame(0, {{3, 10}});
+  first.mask.set(1).set(2);
+  first.viseme = {5, 0, 63, false};
+  first.expression = {1, 63, 0, 0, false, false};
+  const Frame second = make_frame(2, {{3, 20}});
+  const Sequence shown =
+      filled(clip_of({first, second}), {.expand = true, .keep_expressions = true});
+  const Sequence all = filled(clip_of({first, second}), {.expand = true});
+  ASSERT_EQ(shown.frames.size(), 3u);
+  for (const Frame& frame : shown.frames) {
+    EXPECT_FALSE(frame.mask[1]);
+    EXPECT_TRUE(frame.mask[2]);
+    EXPECT_EQ(frame.expression, first.expression);
+    EXPECT_FALSE(frame.mask[31]);
+  }
+  EXPECT_EQ(shown.frames[2].value[3], 20);
+  EXPECT_EQ(shown.frames[0].value[5], viseme_pose(5).value[5]);
+  EXPECT_TRUE(all.frames[0].mask[31]);
+  EXPECT_FALSE(all.frames[0].mask[2]);
 }
 
 TEST(Fill, ResultIsCompleteAndStable) {

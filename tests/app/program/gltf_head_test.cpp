@@ -50,6 +50,39 @@ TEST(GltfHead, LooksLikeTheOneThatWasExported) {
   EXPECT_LT(off, 0.75 * far);  // the camera stands a little elsewhere
 }
 
+// FAP 2 beside lips, as text. `brows`: and brows at rest.
+std::string moody_clip(const TempDir& dir, bool brows) {
+  std::string mask, values = "1 63 0 0 0 0 200 -300";
+  for (int fap = 1; fap <= 68; ++fap) {
+    const bool brow = brows && fap >= 31 && fap <= 38;
+    mask += fap == 2 || fap == 3 || fap == 5 || brow ? "1 " : "0 ";
+    if (brow) values += " 0";
+  }
+  test::spill(dir / "moody.fap", "2.1 moody 25 1\n" + mask + "\n0 " + values + "\n");
+  return dir / "moody.fap";
+}
+
+// A face that the maker of a head made for joy, here one that cannot be taken for ours.
+TEST(GltfHead, ShowsFap2ByItsOwnFacesBesideLips) {
+  const TempDir dir;
+  const std::string head = child(dir);
+  const auto drawn = [&](const std::string& path) {
+    const auto made = animeme({"render", path, "--frame", "0", "--size", "96x96", "--head", head,
+                               "--shape-name", "browOuterUpLeft=joy", "-o", dir / "out.png"});
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    return slurp(dir / "out.png");
+  };
+  const auto expanded = [&](const std::string& path) {
+    EXPECT_EQ(animeme({"decode", path, "--expand", "-o", dir / "low.fap"}).exit_code, 0);
+    return dir / "low.fap";
+  };
+  const std::string moody = moody_clip(dir, false);
+  EXPECT_NE(drawn(moody), drawn(expanded(moody)));
+  // Brows that are coded win.
+  const std::string brows = moody_clip(dir, true);
+  EXPECT_EQ(drawn(brows), drawn(expanded(brows)));
+}
+
 TEST(GltfHead, KeepsItsFileWhenItIsExported) {
   const TempDir dir;
   const std::string head = child(dir);

@@ -68,8 +68,9 @@ struct LengthLimit {
 void add_length_option(OptionTable& cli, LengthLimit& limit);
 
 /// The face as players show it: held and mirrored as the stream means it, FAP 1 and 2 as low-level
-/// FAPs unless they are kept. Errors: those of fap::fill(), with `path` and the option that allows
-/// more.
+/// FAPs unless they are kept. FillOptions::keep_expressions, for heads with faces of their own, has
+/// no effect on clips that move the brows or define expressions: heads would not show theirs there.
+/// Errors: those of fap::fill(), with `path` and the option that allows more.
 Result<fap::Sequence> shown_face(const FaceInput& input, const std::string& path,
                                  fap::FillOptions options = {}, const LengthLimit& limit = {});
 /// As read_face(), from what read_input() gave.

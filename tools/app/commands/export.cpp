@@ -131,7 +131,7 @@ Result<int> write_avatar(const ExportOptions& options, std::vector<std::uint8_t>
     auto input = parse_face(std::move(bytes), each.input);
     if (!input) return input.error();
     fap::FillOptions filling;
-    filling.interpolate = filling.complete = true;
+    filling.interpolate = filling.complete = filling.keep_expressions = true;
     auto clip = eased_face(*input, each.input, filling, options.length);
     if (!clip) return clip.error();
     const auto script = script_for(options.script, {each.input}, input_of(options));

@@ -6,6 +6,7 @@
 
 #include "codec/decode/access_unit.h"
 #include "codec/decode/fill.h"
+#include "fap/tables.h"
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/damage.h"
 #include "tools/formats/media/container.h"
@@ -34,6 +35,20 @@ Result<MotionInput> read_media(const std::vector<std::uint8_t>& bytes, const std
   input->kind = FileKind::media;
   if (!face.units.empty()) input->start = double(face.units.front().time) / face.timescale;
   return input;
+}
+
+// Heads show expressions of their own where nothing else moves the brows (head::control_values())
+// and the stream does not say what an expression looks like.
+bool leaves_expressions(const fap::Sequence& clip) {
+  constexpr int kBrows = 4;  // group
+  return std::none_of(clip.frames.begin(), clip.frames.end(), [](const fap::Frame& frame) {
+    if (frame.mask[2] && frame.expression.def) return true;
+    const auto& [first, size, name] = fap::kGroups[kBrows - 1];
+    for (int fap = first; fap < first + size; ++fap) {
+      if (frame.mask[std::size_t(fap)]) return true;
+    }
+    return false;
+  });
 }
 
 }  // namespace
@@ -107,6 +122,7 @@ Result<FaceInput> face_of(MotionInput input, const std::string& path) {
 Result<fap::Sequence> shown_face(const FaceInput& input, const std::string& path,
                                  fap::FillOptions options, const LengthLimit& limit) {
   options.expand = !options.keep_high_level;
+  options.keep_expressions = options.keep_expressions && leaves_expressions(input.clip);
   options = limit.filling(options, input.clip.rate);
   Result<fap::Sequence> shown = fap::fill(input.clip, input.rules, options);
   if (shown) return shown;

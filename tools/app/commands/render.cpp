@@ -5,6 +5,7 @@
 #include "dam/script/script.h"
 #include "fap/rate_text.h"
 #include "fap/turns.h"
+#include "tools/app/commands/avatar_export.h"
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/fap_names.h"
 #include "tools/app/commands/head_options.h"
@@ -113,12 +114,18 @@ Result<Plan> make_plan(const RenderOptions& options) {
   return plan;
 }
 
+// The user's own head may have faces for FAP 2.
+fap::FillOptions filling_of(const RenderOptions& options) {
+  return {.keep_expressions = moves_by_itself(options.head)};
+}
+
 Result<std::vector<studio::ShownFrame>> choose_frames(const RenderOptions& options,
                                                       const Plan& plan) {
   if (!options.shapes.empty()) return studio::shape_frames(options.shapes);
   Result<FaceInput> input = read_face(options.input);
   if (!input) return input.error();
-  const Result<fap::Sequence> clip = shown_face(*input, options.input, {}, options.length);
+  const Result<fap::Sequence> clip =
+      shown_face(*input, options.input, filling_of(options), options.length);
   if (!clip) return clip.error();
   Result<std::vector<studio::ShownFrame>> frames =
       options.frame >= 0       ? studio::frame_number(*clip, options.frame)
@@ -174,8 +181,9 @@ Result<int> render_video(const RenderOptions& options, const Plan& plan) {
   preview.faps = std::move(*faps);
   Result<FaceInput> input = read_face(options.input);
   if (!input) return input.error();
-  Result<fap::Sequence> clip =
-      shown_face(*input, options.input, {.interpolate = true}, options.length);
+  fap::FillOptions filling = filling_of(options);
+  filling.interpolate = true;
+  Result<fap::Sequence> clip = shown_face(*input, options.input, filling, options.length);
   if (!clip) return clip.error();
   fap::smooth_turns(*clip);
   const Result<dam::Script> script = script_for(options.script, {options.input}, options.reading);

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "fap/head/rig.h"
+#include "tools/app/commands/avatar_export.h"
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/face_stream.h"
 #include "tools/app/commands/head_options.h"
@@ -47,13 +48,14 @@ struct ViewedClip {
   bool container = false;
 };
 
-Result<ViewedClip> read_shown(const std::string& path, const LengthLimit& length) {
+Result<ViewedClip> read_shown(const std::string& path, const LengthLimit& length,
+                              const fap::FillOptions& filling) {
   Result<MotionInput> input = read_motion(path);
   if (!input) return input.error();
   const bool container = input->kind == FileKind::media;
   Result<FaceInput> face = face_of(std::move(*input), path);
   if (!face) return face.error();
-  Result<fap::Sequence> filled = shown_face(*face, path, {}, length);
+  Result<fap::Sequence> filled = shown_face(*face, path, filling, length);
   if (!filled) return filled.error();
   const std::string name = std::filesystem::path(path).filename().string();
   const double start = face->start;
@@ -115,9 +117,12 @@ Result<int> run(const ViewOptions& options) {
   viewer::Page page;
   std::vector<std::string> containers;
   std::vector<FaceInput> faces;
+  const auto choices = options.heads.each();
+  const fap::FillOptions filling{.keep_expressions =
+                                     std::any_of(choices.begin(), choices.end(), moves_by_itself)};
   for (const std::string& path : {options.first, options.second}) {
     if (path.empty()) continue;
-    Result<ViewedClip> shown = read_shown(path, options.length);
+    Result<ViewedClip> shown = read_shown(path, options.length, filling);
     if (!shown) return shown.error();
     if (shown->container && path == "-")
       warn("the sound of standard input is not read; give --audio");

@@ -46,11 +46,20 @@ fap::Frame face_at(const fap::Sequence& clip, double seconds) {
   const auto index = std::size_t(std::clamp(std::floor(at + 1e-6), 0.0, double(last)));
   fap::Frame frame = clip.frames[index];
   const double share = at - double(index);
-  if (index == last || share < 1e-3 || frame.mask[1] || frame.mask[2]) return frame;
+  if (index == last || share < 1e-3 || frame.mask[1]) return frame;
   const fap::Frame& next = clip.frames[index + 1];
+  const auto between = [share](std::int32_t a, std::int32_t b) {
+    return std::int32_t(std::lround(a + share * (double(b) - a)));
+  };
+  fap::Expression& mood = frame.expression;
+  if (mood.select1 == next.expression.select1) {
+    mood.intensity1 = between(mood.intensity1, next.expression.intensity1);
+  }
+  if (mood.select2 == next.expression.select2) {
+    mood.intensity2 = between(mood.intensity2, next.expression.intensity2);
+  }
   for (std::size_t fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
-    const double value = frame.value[fap] + share * (double(next.value[fap]) - frame.value[fap]);
-    frame.value[fap] = std::int32_t(std::lround(value));
+    frame.value[fap] = between(frame.value[fap], next.value[fap]);
   }
   return frame;
 }
