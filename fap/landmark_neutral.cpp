@@ -5,6 +5,7 @@
 #include <initializer_list>
 
 #include "fap/detail/landmark_face.h"
+#include "fap/detail/quantile.h"
 
 namespace animeme::fap::internal {
 namespace {
@@ -60,11 +61,6 @@ double step(const Look& a, const Look& b) {
   return sum;
 }
 
-double quantile(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
-  return values[std::size_t(share * double(values.size() - 1) + 0.5)];
-}
-
 }  // namespace
 
 std::vector<std::size_t> find_neutral_frames(const TrackedFace& face) {
@@ -73,11 +69,18 @@ std::vector<std::size_t> find_neutral_frames(const TrackedFace& face) {
     if (const auto seen = look(face, frame)) looks.push_back(*seen);
   }
   if (looks.empty()) return {};
-  for (std::size_t i = 0; i < looks.size() && looks.size() > 1; ++i) {
-    const std::size_t before = i > 0 ? i - 1 : 1;  // the ends look to their one side twice
-    const std::size_t behind = i + 1 < looks.size() ? i + 1 : i - 1;
-    looks[i].motion = step(looks[i], looks[before]) + step(looks[i], looks[behind]);
+  Look* before = nullptr;
+  for (Look& one : looks) {
+    if (before != nullptr) {
+      const double moved = step(*before, one);
+      before->motion += moved;
+      one.motion += moved;
+    }
+    before = &one;
   }
+  // The ends have one neighbour.
+  looks.front().motion *= 2;
+  looks.back().motion *= 2;
   std::vector<double> lids;
   std::vector<double> gaps;
   for (const Look& one : looks) {
@@ -85,8 +88,8 @@ std::vector<std::size_t> find_neutral_frames(const TrackedFace& face) {
     gaps.push_back(one.gap);
   }
   const double open = kOpenEyes * median_of(lids);
-  const double low = quantile(gaps, kEnds);
-  const double closed = low + kClosedLips * (quantile(gaps, 1 - kEnds) - low);
+  const double low = detail::quantile(gaps, kEnds);
+  const double closed = low + kClosedLips * (detail::quantile(gaps, 1 - kEnds) - low);
   std::vector<Look> calm;
   for (const Look& one : looks) {
     if (one.lids >= open && one.gap <= closed) calm.push_back(one);

@@ -8,6 +8,7 @@
 
 #include "dam/corpus/statistics_internal.h"
 #include "dam/signal/limits.h"
+#include "fap/detail/quantile.h"
 
 namespace animeme::dam {
 namespace {
@@ -22,13 +23,6 @@ constexpr double kRepeats = 0.1;
 constexpr double kTooMany = 0.05;  // of the frames
 constexpr double kBridge = 0.12;   // seconds
 constexpr std::size_t kApart = 3;  // frames between two parts of one jump
-
-/// The value that `share` of the values lie below. Reorders them.
-double quantile(std::vector<double>& values, double share) {
-  const auto at = std::ptrdiff_t(std::lround(share * double(values.size() - 1)));
-  std::nth_element(values.begin(), values.begin() + at, values.end());
-  return values[std::size_t(at)];
-}
 
 /// Distance from the median of a normal distribution beyond which `share` lie, over that of
 /// kShare.
@@ -93,11 +87,12 @@ Usual usual_of(std::span<const Utterance* const> sentences, const SpeechMasks& s
   if (values.empty() || bends.empty()) return usual;
   seconds = sentences[0]->signal.rate.seconds(double(values.size()));
   const double share = std::clamp(kNonsense / seconds, kShare, kMostShare);
-  const double low = quantile(values, share), high = quantile(values, 1 - share);
-  usual.middle = quantile(values, 0.5);
+  const double low = fap::detail::quantile(values, share),
+               high = fap::detail::quantile(values, 1 - share);
+  usual.middle = fap::detail::quantile(values, 0.5);
   usual.span = (high - low) / reach_ratio(share);
   usual.reach = usual.span * (share > kShare ? kJumpOfLittle : kJump);
-  usual.bend = quantile(bends, std::min(kSpikeShare, 1 - share / 2));
+  usual.bend = fap::detail::quantile(bends, std::min(kSpikeShare, 1 - share / 2));
   usual.repeats = double(same) > kRepeats * double(spoken);
   std::sort(values.begin(), values.end());
   usual.habit = std::max(2.0, kHabit * double(values.size()));

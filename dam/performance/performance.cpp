@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "fap/detail/quantile.h"
 #include "fap/tables.h"
 
 namespace animeme::dam {
@@ -33,14 +34,6 @@ fap::Mask faps_of_regions(std::initializer_list<std::string_view> names) {
   fap::Mask mask;
   for (const std::string_view name : names) mask |= fap::region_faps(name).value_or(fap::Mask());
   return mask;
-}
-
-// The value below which `share` of the values lie; reorders them.
-float value_at_quantile(std::vector<float>& values, double share) {
-  if (values.empty()) return 0;
-  const auto at = values.begin() + std::ptrdiff_t(share * double(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
 }
 
 std::vector<float> smoothed_curve(const std::vector<float>& values, double deviation) {
@@ -104,7 +97,7 @@ std::vector<SpeechAccent> syllables_of(const MouthMotion& motion, const fap::Rat
                                        float least) {
   std::vector<SpeechAccent> list;
   std::vector<float> sorted = motion.opening;
-  const float usual = std::max(1.0f, value_at_quantile(sorted, 0.9));
+  const float usual = std::max(1.0f, fap::detail::quantile(sorted, 0.9));
   const auto count = std::ptrdiff_t(motion.opening.size());
   const auto reach = std::max<std::ptrdiff_t>(1, std::ptrdiff_t(0.12 * rate.frames_per_second()));
   for (std::ptrdiff_t i = 0; i < count; ++i) {
@@ -211,7 +204,7 @@ void Performance::find_slow() {
     const auto end = std::min<std::ptrdiff_t>(last, std::llround((middle + kPlayedWindow) * rate));
     for (auto f = std::min(first, end); f <= end; ++f)
       values.push_back(read(clip_.frames[std::size_t(f)]));
-    return value_at_quantile(values, share);
+    return fap::detail::quantile(values, share);
   };
   const fap::Mask slow = faps_ & faps_of_regions({"lips", "jaw"});
   for (std::size_t fap = fap::kFirstLowLevel; fap < slow_.size(); ++fap) {
@@ -297,8 +290,8 @@ void Performance::find_plan(const Script& script) {
   if (!faps_[3] && !faps_[4]) return;
   const MouthMotion motion = mouth_motion(clip_);
   std::vector<float> sorted = motion.range;
-  const float least =
-      std::max(float(kPlayedActive) * value_at_quantile(sorted, 0.95), float(kPlayedLeastMotion));
+  const float least = std::max(float(kPlayedActive) * fap::detail::quantile(sorted, 0.95),
+                               float(kPlayedLeastMotion));
   std::vector<SpeechPhrase> phrases;
   double active = 0;
   for (std::size_t i = 0; i < motion.range.size(); ++i) {

@@ -15,17 +15,10 @@ import sys
 import tempfile
 import time
 
+from ports import free_port
+
 MEMORY = 400  # MB of pages in use
 PATIENCE = 60
-
-
-def free_port(kind=socket.SOCK_DGRAM):
-    while True:
-        with socket.socket(socket.AF_INET, kind) as one:
-            one.bind(("127.0.0.1", 0))
-            port = one.getsockname()[1]
-        if kind == socket.SOCK_STREAM or port % 2 == 0:  # as RTP has them
-            return port
 
 
 def megabytes(process):

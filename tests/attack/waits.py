@@ -1,6 +1,6 @@
 """Every wait of `animeme stream`, `serve` and `receive` ends on SIGTERM.  waits.py PROGRAM [NAME ...]
 
-Each case brings the program to one wait (the table in README.md), makes sure that it is still there, and ends it as a
+Some cases run at a time. Each brings the program to one wait (the table in README.md), makes sure that it is still there, and ends it as a
 service manager does. It has to go within LIMIT seconds, with an exit code of its own."""
 
 import os
@@ -10,19 +10,14 @@ import subprocess
 import sys
 import tempfile
 import time
+from concurrent.futures import ThreadPoolExecutor
+
+from ports import free_port
 
 PROGRAM = sys.argv[1]
 LIMIT = 40  # seconds; beside other tests, under a sanitizer
 SETTLE = 1.5
-
-
-def free_port(kind=socket.SOCK_DGRAM):
-    while True:
-        with socket.socket(socket.AF_INET, kind) as one:
-            one.bind(("127.0.0.1", 0))
-            port = one.getsockname()[1]
-        if kind == socket.SOCK_STREAM or port % 2 == 0:  # as RTP has them
-            return port
+AT_ONCE = 4  # cases: most of their time they wait
 
 
 class Case:
@@ -31,6 +26,7 @@ class Case:
     def __init__(self, folder):
         self.folder = folder
         self.held = []  # open as long as the case
+        self.environment = dict(os.environ)
 
     def path(self, name):
         return os.path.join(self.folder, name)
@@ -40,7 +36,8 @@ class Case:
 
     def start(self, arguments, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=None):
         self.log = open(self.path("log"), "wb")
-        self.process = subprocess.Popen([PROGRAM, *arguments], stdin=stdin, stdout=stdout, stderr=stderr or self.log)
+        self.process = subprocess.Popen([PROGRAM, *arguments], stdin=stdin, stdout=stdout, stderr=stderr or self.log,
+                                        env=self.environment)
         return self.process
 
     def full_pipe(self):
@@ -236,11 +233,8 @@ def server_without_voices(case):
     """espeak-ng finds no data: an error at the start, and no search without end."""
     empty = case.path("empty")
     os.mkdir(empty)
-    os.environ["ESPEAK_DATA_PATH"] = empty
-    try:
-        start_server(case)
-    finally:
-        del os.environ["ESPEAK_DATA_PATH"]
+    case.environment["ESPEAK_DATA_PATH"] = empty
+    start_server(case)
 
 
 def server_with_a_full_pipe(case):
@@ -308,7 +302,9 @@ def run(make):
 
 def main():
     wanted = sys.argv[2:]
-    failed = [make.__name__ for make in CASES if (not wanted or make.__name__ in wanted) and not run(make)]
+    chosen = [make for make in CASES if not wanted or make.__name__ in wanted]
+    with ThreadPoolExecutor(AT_ONCE) as pool:
+        failed = [make.__name__ for make, fine in zip(chosen, pool.map(run, chosen)) if not fine]
     if failed:
         raise SystemExit("these do not end on SIGTERM: " + ", ".join(failed))
 

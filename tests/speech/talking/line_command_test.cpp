@@ -111,14 +111,34 @@ TEST(LineCommand, HearsOfTheOther) {
 }
 
 TEST(LineCommand, AllOtherLinesAreSaid) {
-  for (const char* text : {"Hello.", "{ is a bracket", "{}", R"({"text": "no do"})", "[1]",
-                           "{\"what\" to \"do\" now?", R"(say {"do":"stop"})"}) {
+  for (const char* text :
+       {"Hello.", "{ is a bracket", "{}", R"({"word": "no text"})", "[1]",
+        "{\"what\" to \"do\" now?", "{a \"text\" in braces}", R"(say {"do":"stop"})"}) {
     const LineCommand command = good(text);
     EXPECT_EQ(command.what, Do::say) << text;
     EXPECT_EQ(command.payload, text);
     EXPECT_EQ(command.text, text);
     EXPECT_TRUE(command.id.empty());
   }
+}
+
+TEST(LineCommand, ATextIsSaidWithoutDo) {
+  const LineCommand say = good(R"({"text":"Ja.","id":"7","lang":"de","when":"next","mood":"joy"})");
+  EXPECT_EQ(say.what, Do::say);
+  EXPECT_EQ(say.text, "Ja.");
+  EXPECT_EQ(say.payload, "Ja.");
+  EXPECT_EQ(say.id, "7");
+  EXPECT_EQ(say.language, "de");
+  EXPECT_EQ(say.when, When::next);
+  EXPECT_EQ(say.mood->name, "joy");
+  for (const char* wrong :
+       {R"({"text":"x","volume":3})", R"({"text":""})", R"({"text":["x"]})", R"({"text": "x")"}) {
+    EXPECT_FALSE(read_line(wrong, false)) << wrong;
+  }
+  const std::string mark = "\xEF\xBB\xBF";
+  EXPECT_EQ(good(mark + R"({"text":"x"})").payload, "x");
+  EXPECT_EQ(good(mark + R"({"do":"stop"})").what, Do::stop);
+  EXPECT_EQ(good(mark + "Hello.").payload, "Hello.");
 }
 
 TEST(LineCommand, PiecesKeepTheirLine) {

@@ -73,6 +73,22 @@ TEST(TextToSay, AnOddByteCostsItself) {
   EXPECT_EQ(warnings.size(), 3u);
 }
 
+TEST(LineToSay, AMarkOfUtf16IsDamageUnlessTheLineIsUtf16) {
+  std::vector<std::string> warnings;
+  tools::Log log;
+  log.warn = [&](const std::string& warning) { warnings.push_back(warning); };
+  const auto say = [&](std::string_view bytes) { return line_to_say(bytes, false, log); };
+  EXPECT_EQ(say("\xFF\xFEHello there."), "Hello there.");
+  EXPECT_EQ(say("\xFE\xFF"
+                "Z\xC3\xBCrich"),
+            "Zürich");
+  EXPECT_EQ(say("\xFF\xFE"), "");
+  EXPECT_EQ(warnings.size(), 3u);
+  EXPECT_EQ(say(std::string_view("\xFF\xFEJ\0a\0.\0", 8)), "Ja.");
+  EXPECT_EQ(say("Zürich"), "Zürich");
+  EXPECT_EQ(warnings.size(), 3u);
+}
+
 TEST(TextToSay, MarksOfAnyLanguageAreNotSaid) {
   const auto say = [](std::string_view text) { return text_to_say(text, false); };
   EXPECT_EQ(say("[lacht] Das ist gut. [zwinkert] Ja!"), "Das ist gut. Ja!");

@@ -51,7 +51,7 @@ std::string said(Json object) {
   return object.dump();
 }
 
-// JSON, or lines of text and commands, of which an object with a "text" is one.
+// JSON, or lines of text and commands.
 Result<std::vector<std::string>> lines_of(const std::string& body) {
   std::vector<std::string> lines;
   const std::string whole(media::trim(body));
@@ -72,12 +72,7 @@ Result<std::vector<std::string>> lines_of(const std::string& body) {
   }
   std::istringstream stream(body);
   for (std::string line; std::getline(stream, line);) {
-    line = media::trim(line);
-    if (line.starts_with('{')) {
-      const Result<Json> object = Json::parse(line);
-      if (object && object->is_object() && object->contains("text")) line = said(*object);
-    }
-    lines.push_back(std::move(line));
+    lines.emplace_back(media::trim(line));
   }
   return lines;
 }

@@ -21,11 +21,11 @@ constexpr std::pair<std::string_view, Do> kDos[] = {
 constexpr std::pair<std::string_view, When> kWhens[] = {
     {"now", When::now}, {"next", When::next}, {"last", When::last}};
 
-// Whether something that is no JSON was meant as a command: "do" and a colon.
-bool has_a_do(std::string_view line) {
-  constexpr std::string_view kDo = "\"do\"";
-  for (std::size_t at = line.find(kDo); at != std::string_view::npos; at = line.find(kDo, at)) {
-    at += kDo.size();
+// Whether something that is no JSON has a member of this name: the name and a colon.
+bool has_member(std::string_view line, std::string_view quoted) {
+  for (std::size_t at = line.find(quoted); at != std::string_view::npos;
+       at = line.find(quoted, at)) {
+    at += quoted.size();
     const std::size_t next = line.find_first_not_of(" \t", at);
     if (next != std::string_view::npos && line[next] == ':') return true;
   }
@@ -125,8 +125,10 @@ LineCommand said(std::string line) {
   return command;
 }
 
+// Without "do": say.
 Result<LineCommand> command_of(const Json& object, std::string line, bool json) {
-  const Result<std::string> what = text_of(object, "do"), when = text_of(object, "when");
+  const Result<std::string> what = text_of(object, "do");
+  const Result<std::string> when = text_of(object, "when");
   Result<std::string> id = text_of(object, "id"), text = text_of(object, "text");
   for (const auto* one : {&what, &when}) {
     if (!*one) return one->error();
@@ -134,9 +136,11 @@ Result<LineCommand> command_of(const Json& object, std::string line, bool json) 
   if (!id) return id.error();
   if (!text) return text.error();
   LineCommand command;
-  const Result<Do> wanted = value_of("do", *what, kDos);
-  if (!wanted) return wanted.error();
-  command.what = *wanted;
+  if (object.contains("do")) {
+    const Result<Do> wanted = value_of("do", *what, kDos);
+    if (!wanted) return wanted.error();
+    command.what = *wanted;
+  }
   if (!json || command.what != Do::say) {
     if (auto ok = check_members(object, command.what); !ok) return ok.error();
   }
@@ -186,13 +190,17 @@ Result<LineCommand> command_of(const Json& object, std::string line, bool json) 
 }  // namespace
 
 Result<LineCommand> read_line(std::string line, bool json) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";  // before the first line of some files
+  if (line.starts_with(kMark)) line.erase(0, kMark.size());
   if (!line.starts_with('{')) return said(std::move(line));
   const Result<Json> object = parse_object(line);
   if (!object) {
-    if (!json && has_a_do(line)) return object.error();
+    const bool meant = has_member(line, R"("do")") || has_member(line, R"("text")");
+    if (!json && meant) return object.error();
     return said(std::move(line));  // who makes pieces of lines says what is wrong with this one
   }
-  if (object->contains("do")) return command_of(*object, std::move(line), json);
+  const bool command = object->contains("do") || (!json && object->contains("text"));
+  if (command) return command_of(*object, std::move(line), json);
   if (!json) return said(std::move(line));
   LineCommand piece;
   if (const auto id = text_of(*object, "id")) piece.id = *id;

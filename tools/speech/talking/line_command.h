@@ -10,6 +10,7 @@
 ///     {"do": "listen"}, "think", "idle"                       what the face does between lines
 ///     {"do": "hear", "voice": true}                           the other speaks; false: it pauses
 ///     {"do": "end"}                                           end when everything is spoken
+///     {"text": "Yes?"}                                        among lines of text: as "do": "say"
 ///
 /// Lines to say may have a "lang" ("de", "en-gb+f3") in place of that of the head, and a "mood" of
 /// their own: "joy", "joy:0.6" or {"name": "joy", "intensity": 0.6}; names are those of
@@ -64,11 +65,12 @@ struct LineCommand {
 /// Maximum size of a command among lines of text, bytes.
 inline constexpr std::size_t kMostCommand = std::size_t(1) << 20;
 
-/// Parses a line without surrounding blanks. A JSON object with a member "do" is a command; any
-/// other line is spoken. `json`: lines are pieces (pieces.h), whose "id" and "text" are used; a
-/// piece with "do": "say" has a position in the queue. If lines are text, one that begins with {
-/// and is not a command remains text, unless it is broken JSON with a "do" in it. Errors: syntax
-/// (broken JSON, a member of a wrong type), not_found (unknown "do", "when" or mood),
+/// Parses a line without surrounding blanks and without a byte order mark of UTF-8. A JSON object
+/// with a member "do" is a command; any other line is spoken. `json`: lines are pieces (pieces.h),
+/// whose "id" and "text" are used; a piece with "do": "say" has a position in the queue. If lines
+/// are text, an object with a "text" and no "do" is to be said; any other line that begins with {
+/// remains text, unless it is broken JSON with a "do" or "text" in it. Errors: syntax (broken JSON,
+/// a member of a wrong type), not_found (unknown "do", "when" or mood),
 /// invalid_argument (nothing to say, no target, no voice, an intensity out of range; a member that
 /// the command does not have, except among pieces, where "say" has those of a piece), those of
 /// dam::parse_look().

@@ -136,7 +136,7 @@ Result<LineMaker> voice_lines(const voice::VoiceOptions& options, bool speak_mar
     };
     tools::Log log;
     log.warn = doubt;
-    Result<voice::Speech> speech = voice::speak_text(text_to_say(line, speak_marks, log), how);
+    Result<voice::Speech> speech = voice::speak_text(line_to_say(line, speak_marks, log), how);
     if (!speech) return speech.error();
     spoken.text = std::move(line);
     for (const std::string& warning : speech->warnings) doubt(warning);

@@ -105,7 +105,7 @@ struct LineMaker {
 };
 
 /// Speaks each line. Synthesises something once, so that a missing voice is detected immediately
-/// and the first line is fast. `speak_marks` as of text_to_say() (written_text.h).
+/// and the first line is fast. `speak_marks` as of line_to_say() (written_text.h).
 /// Errors: those of voice::speak_text() except a text without words.
 Result<LineMaker> voice_lines(const voice::VoiceOptions& options, bool speak_marks = false);
 

@@ -114,7 +114,8 @@ Result<LineMaker> command_lines(const VoiceCommand& voice) {
     };
     tools::Progress progress;
     progress.stop = [&wanted] { return !wanted(); };
-    Result<TimedSpeech> timed = run_voice_command(line, how, log, progress);
+    const std::string text(without_stray_mark(line, log));
+    Result<TimedSpeech> timed = run_voice_command(text, how, log, progress);
     if (!timed) return timed.error();
     spoken.text = std::move(line);
     spoken.speech = std::move(timed->speech);

@@ -39,4 +39,15 @@ std::string text_to_say(std::string_view bytes, bool speak_marks, const tools::L
   return std::move(unmarked.text);
 }
 
+std::string_view without_stray_mark(std::string_view line, const tools::Log& log) {
+  const bool marked = line.starts_with("\xFF\xFE") || line.starts_with("\xFE\xFF");
+  if (!marked || line.find('\0') != line.npos) return line;
+  log.warn("the byte order mark of UTF-16 before a line that is not UTF-16 is left out");
+  return line.substr(2);
+}
+
+std::string line_to_say(std::string_view line, bool speak_marks, const tools::Log& log) {
+  return text_to_say(without_stray_mark(line, log), speak_marks, log);
+}
+
 }  // namespace animeme::speech

@@ -15,4 +15,11 @@ namespace animeme::speech {
 /// with `speak_marks`, keeps its marks.
 std::string text_to_say(std::string_view bytes, bool speak_marks, const tools::Log& log = {});
 
+/// text_to_say() of one line among others. A byte order mark of UTF-16 before a line that has no
+/// zero byte is damage: it is left out and reported to log.warn.
+std::string line_to_say(std::string_view line, bool speak_marks, const tools::Log& log = {});
+
+/// The line without such a mark, as bytes.
+std::string_view without_stray_mark(std::string_view line, const tools::Log& log = {});
+
 }  // namespace animeme::speech
