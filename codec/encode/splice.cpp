@@ -248,8 +248,8 @@ struct Splicer::Impl {
       state = State::nothing;
     }
     const bool avoided = plane.intra && continues(plane);
-    const bool as_it_is = !avoided && ((state == State::all && !may_get_lost(plane)) ||
-                                       (plane.intra && is_complete(plane)));
+    const bool as_it_is = !avoided && !may_get_lost(plane) &&
+                          (state == State::all || (plane.intra && is_complete(plane)));
     if (as_it_is) {
       if (auto ok = put(verbatim(plane, skip)); !ok) return ok;
       state = State::all;

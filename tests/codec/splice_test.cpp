@@ -235,6 +235,41 @@ TEST(Splicer, CopiesReferenceStreamsByteForByteAndCutsThem) {
   EXPECT_LT(beyond, count / 10) << count;
 }
 
+// An intra plane without face and body takes three bits, which a start code behind them turns into
+// stuffing.
+TEST(Splicer, IntraPlanesWithoutFaceAndBodyAreNotLost) {
+  fba::Encoder encoder({fba::PlaneStartCodes::none, false});
+  fba::FaceSettings settings;
+  settings.mask.set(3);
+  settings.mask_type[1] = fba::MaskType::hold;
+  settings.send_range = {true, true, true, true};
+  fap::Frame frame;
+  fba::PlaneInput plane;
+  plane.intra = true;
+  plane.face = &frame;
+  plane.face_settings = &settings;
+  ASSERT_TRUE(encoder.write(plane)) << encoder.write(plane).error().describe();
+  plane.object_mask = fba::ObjectMask::nothing;
+  // Each place of the plane in its byte.
+  for (int i = 0; i < 40; ++i) {
+    plane.intra = i % 3 != 0;
+    ASSERT_TRUE(encoder.write(plane));
+  }
+  plane.object_mask = fba::ObjectMask::face;
+  plane.intra = true;
+  ASSERT_TRUE(encoder.write(plane));
+  const fba::DecodedStream source = decoded(encoder.finish());
+  ASSERT_EQ(source.planes.size(), 42u);
+  for (std::int64_t end = 1; end <= 42; ++end) {
+    for (const std::int64_t first : {std::int64_t(0), end / 2, end - 1}) {
+      for (const auto codes : {fba::PlaneStartCodes::none, fba::PlaneStartCodes::intra}) {
+        const Spliced cut = splice({{&source, first, end}, {&source, 0, end}}, codes);
+        EXPECT_EQ(decoded(cut.stream).planes.size(), std::size_t(end - first + end));
+      }
+    }
+  }
+}
+
 TEST(JoinedStreams, AreFoundByTheirEndCodes) {
   Random random(9);
   fap::Sequence quiet = test::quiet_clip(random), lively = test::random_clip(4, 30);
