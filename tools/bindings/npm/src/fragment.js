@@ -3,6 +3,7 @@ import {boxesIn, fullBox} from './boxes.js';
 import {AnimemeError} from './library.js';
 
 const NOT_SYNC = 0x10000;
+const kMostSamples = 1_000_000;  // of a fragment
 
 function headerOf(view, traf, track) {
   const header = {base: null, time: null, ...track.defaults};
@@ -30,9 +31,12 @@ function* samplesOfRun(view, trun, header, track, state) {
   if (flags & 1) state.offset = state.base + view.getInt32((at += 4) - 4);
   const first = flags & 4 ? view.getUint32((at += 4) - 4) : header.flags;
   const row = [0x100, 0x200, 0x400, 0x800].filter((flag) => flags & flag).length * 4;
-  if (at + row * count > trun.end || count > 1_000_000) {
+  // A sample without bytes is none; without a row each, nothing else bounds their number.
+  const empty = row === 0 && count > 0 && header.size === 0;
+  if (at + row * count > trun.end || state.left < count || empty) {
     throw new AnimemeError('syntax', 'this mp4 is broken: a fragment');
   }
+  state.left -= count;
   for (let i = 0; i < count; ++i) {
     let {duration, size, flags: kind} = header;
     let shift = 0;
@@ -51,16 +55,17 @@ function* samplesOfRun(view, trun, header, track, state) {
 /** `at`: where the fragment lies in the file; `next`: the time (ticks) where the one before ended. */
 export function readFragment(view, moof, at, track, next) {
   const samples = [];
-  let time = next;
+  let time = next, left = kMostSamples;
   for (const traf of boxesIn(view, moof.begin, moof.end)) {
     const header = traf.type === 'traf' ? headerOf(view, traf, track) : null;
     if (!header) continue;
     const base = header.base ?? at;
-    const state = {base, offset: base, time: header.time ?? time};
+    const state = {base, offset: base, time: header.time ?? time, left};
     for (const trun of boxesIn(view, traf.begin, traf.end)) {
-      if (trun.type === 'trun') samples.push(...samplesOfRun(view, trun, header, track, state));
+      if (trun.type !== 'trun') continue;
+      for (const sample of samplesOfRun(view, trun, header, track, state)) samples.push(sample);
     }
-    time = state.time;
+    ({time, left} = state);
   }
   return {samples, next: time};
 }

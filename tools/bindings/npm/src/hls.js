@@ -4,10 +4,19 @@ import {Mp4Reader} from './mp4.js';
 import {SoundBuffer} from './sound.js';
 import {UnitDecoder} from './track.js';
 
+const kLongest = 86400;  // seconds of a segment
 const kAhead = 30;  // seconds that are loaded in front of the player
 
 const attributes = (text) => Object.fromEntries(
-  [...text.matchAll(/([A-Z0-9-]+)=("[^"]*"|[^,]*)/g)].map(([, name, value]) => [name, value.replace(/^"|"$/g, '')]));
+  [...text.matchAll(/(?:^|,)\s*([A-Z0-9-]+)=("[^"]*"|[^,]*)/g)].map(([, name, value]) => [name, value.replace(/^"|"$/g, '')]));
+
+function addressOf(text, url) {
+  try {
+    return new URL(text, url).href;
+  } catch {
+    throw new AnimemeError('syntax', `${url} names an address that is none`);
+  }
+}
 
 /** A playlist: {face, sound} of a master, {init, segments: [{url, begin, end}]} of a rendition. */
 export function readPlaylist(text, url) {
@@ -19,17 +28,18 @@ export function readPlaylist(text, url) {
     const [tag, rest] = [line.split(':', 1)[0], line.slice(line.indexOf(':') + 1)];
     if (tag === '#EXT-X-MEDIA') {
       const {TYPE: type, 'GROUP-ID': group, URI: uri} = attributes(rest);
-      if (type === 'VIDEO' && group === 'face' && uri) out.face = new URL(uri, url).href;
+      if (type === 'VIDEO' && group === 'face' && uri) out.face = addressOf(uri, url);
     } else if (tag === '#EXT-X-STREAM-INF') {
       variant = attributes(rest);
     } else if (tag === '#EXT-X-MAP') {
-      out.init = new URL(attributes(rest).URI, url).href;
+      out.init = addressOf(attributes(rest).URI ?? '', url);
     } else if (tag === '#EXTINF') {
       duration = parseFloat(rest);
+      if (!(duration >= 0 && duration < kLongest)) throw new AnimemeError('syntax', `${url} has a segment without a length`);
     } else if (tag === '#EXT-X-ENDLIST') {
       out.complete = true;
     } else if (line && !line.startsWith('#')) {
-      const address = new URL(line, url).href;
+      const address = addressOf(line, url);
       if (!variant) {
         out.segments.push({url: address, begin: time, end: time += duration});
         continue;
@@ -75,13 +85,19 @@ async function follow(list, media, signal, use) {
   }
 }
 
+async function initOf(list, url, signal) {
+  if (!list.init) throw new AnimemeError('syntax', `${url} has no #EXT-X-MAP`);
+  return bytesOf(list.init, signal);
+}
+
 async function openFace(url, media, track, signal) {
-  const list = await playlistOf(url, signal), init = await bytesOf(list.init, signal);
+  const list = await playlistOf(url, signal), init = await initOf(list, url, signal);
   const end = list.segments.at(-1)?.end ?? 0;
   if (media.duration === 0) media.duration = end;  // nothing else tells it
   await follow(list, media, signal, (bytes) => {
     const reader = new Mp4Reader();
     reader.push(init);
+    reader.finish();
     const decoder = new UnitDecoder(reader.track.config);  // each segment begins with an intra plane
     for (const unit of reader.push(bytes)) track.add(decoder.decode(unit));
     decoder.free();
@@ -90,7 +106,7 @@ async function openFace(url, media, track, signal) {
 
 async function openSound(url, codecs, media, signal) {
   const list = await playlistOf(url, signal);
-  const init = await bytesOf(list.init, signal);
+  const init = await initOf(list, url, signal);
   const buffer = new SoundBuffer(media, init, codecs);
   signal.addEventListener('abort', () => buffer.close());
   await buffer.opened;

@@ -3,6 +3,7 @@ import {boxesIn, find, fullBox, typeAt} from './boxes.js';
 import {AnimemeError} from './library.js';
 
 const kMostSamples = 10_000_000;
+const kMostAlike = 1_000_000;  // of one size, which no table bounds
 const broken = (what) => new AnimemeError('syntax', `this mp4 is broken: ${what}`);
 
 // A descriptor of MPEG-4 Systems: {tag, begin, end}.
@@ -95,7 +96,7 @@ function* runs(view, box) {
 
 function sizesOf(view, stsz, most) {
   const same = view.getUint32(stsz.begin + 4), count = view.getUint32(stsz.begin + 8);
-  if (count > kMostSamples || (same ? same * count > most : stsz.begin + 12 + 4 * count > stsz.end)) {
+  if (count > (same ? kMostAlike : kMostSamples) || (same ? same * count > most : stsz.begin + 12 + 4 * count > stsz.end)) {
     throw broken('too many samples');
   }
   return Array.from({length: count}, (_, i) => same || view.getUint32(stsz.begin + 12 + 4 * i));

@@ -6,6 +6,8 @@ import {readMovie} from './movie.js';
 
 const kFirst = ['ftyp', 'styp', 'moov', 'moof', 'mdat', 'free', 'skip', 'wide', 'sidx'];
 
+const kMostWaiting = 1_000_000;  // samples of fragments
+
 /** Push bytes, get access units: {time, duration (seconds), bytes, intra}. */
 export class Mp4Reader {
   constructor() {
@@ -20,16 +22,18 @@ export class Mp4Reader {
   }
 
   push(bytes) {
+    if (!(bytes instanceof Uint8Array)) throw new AnimemeError('invalid_argument', 'bytes of an mp4 are a Uint8Array');
     this.bytes = join(this.bytes, bytes);
     while (this.readBox()) { /* all that are there */ }
     const units = [];
-    while (this.pending.length) {
-      const {offset, size, ...unit} = this.pending[0];
+    let taken = 0;
+    for (; taken < this.pending.length; ++taken) {
+      const {offset, size, ...unit} = this.pending[taken];
       if (offset < this.base) throw new AnimemeError('syntax', 'this mp4 is broken: samples come before their table');
       if (offset + size > this.base + this.bytes.length) break;
-      this.pending.shift();
       units.push({...unit, bytes: this.bytes.slice(offset - this.base, offset - this.base + size)});
     }
+    this.pending.splice(0, taken);
     this.forget();
     return units;
   }
@@ -72,7 +76,10 @@ export class Mp4Reader {
   readFragment(view, moof) {
     const {samples, next} = readFragment(view, moof, this.at, this.track, this.next);
     this.fragments = true;
-    this.pending.push(...samples);
+    if (this.pending.length + samples.length > kMostWaiting) {
+      throw new AnimemeError('syntax', 'this mp4 is broken: too many samples wait for their bytes');
+    }
+    for (const sample of samples) this.pending.push(sample);
     this.next = next;
   }
 

@@ -65,8 +65,9 @@ export class Track {
   /** Frames that follow each other; those of a segment that comes late find their place. */
   add(frames) {
     if (!frames.length) return;
-    const last = frames.at(-1);
-    this.frames.splice(this.indexAt(frames[0].time) + 1, 0, ...frames);
+    const last = frames.at(-1), behind = this.frames.splice(this.indexAt(frames[0].time) + 1);
+    for (const frame of frames) this.frames.push(frame);  // an hour of them is too long a list of arguments
+    for (const frame of behind) this.frames.push(frame);
     this.end = Math.max(this.end, last.time + last.rate[1] / last.rate[0]);
   }
 
