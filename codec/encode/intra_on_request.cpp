@@ -15,7 +15,8 @@ namespace {
 
 template <class Settings>
 bool sends_all(const std::shared_ptr<const Settings>& settings) {
-  return !settings || std::ranges::all_of(settings->send_range, std::identity());
+  return !settings ||
+         std::all_of(settings->send_range.begin(), settings->send_range.end(), std::identity());
 }
 
 // An intra plane that depends on nothing before it.

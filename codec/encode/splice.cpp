@@ -50,7 +50,7 @@ void complete_types(BodySettings& settings) {
 
 template <class Settings>
 bool sends_all_ranges(const Settings& settings) {
-  return std::ranges::all_of(settings.send_range, std::identity());
+  return std::all_of(settings.send_range.begin(), settings.send_range.end(), std::identity());
 }
 
 // What the planes of a source so far have left behind in one family, face or body.

@@ -1,10 +1,11 @@
 #include "dam/behaviour/look.h"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <optional>
+
+#include "fap/detail/real_text.h"
 
 namespace animeme::dam {
 namespace {
@@ -22,7 +23,7 @@ std::optional<double> look_number(std::string_view text) {
   while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
   if (text.starts_with('+')) text.remove_prefix(1);
   double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto [end, error] = fap::detail::read_real(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
     return std::nullopt;
   return value;
@@ -35,8 +36,9 @@ Result<void> within_reach(double yaw, double pitch) {
 }
 
 std::string short_number(double value) {
-  char text[40];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+  std::string text;
+  fap::detail::append_shortest(text, value);
+  return text;
 }
 
 }  // namespace

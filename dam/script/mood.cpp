@@ -1,9 +1,9 @@
 #include "dam/script/mood.h"
 
 #include <algorithm>
-#include <charconv>
 
 #include "dam/script/script_text_internal.h"
+#include "fap/detail/real_text.h"
 
 namespace animeme::dam {
 namespace {
@@ -180,7 +180,7 @@ Result<Mood> read_mood(std::string_view text) {
   const std::string_view number = trimmed(text.substr(colon + 1));
   double intensity = 0;
   const auto [end, error] =
-      std::from_chars(number.data(), number.data() + number.size(), intensity);
+      fap::detail::read_real(number.data(), number.data() + number.size(), intensity);
   if (error != std::errc{} || end != number.data() + number.size()) {
     return make_error(Code::invalid_argument,
                       "a mood is written NAME or NAME:INTENSITY, as joy:0.6, not \"" +
@@ -191,9 +191,9 @@ Result<Mood> read_mood(std::string_view text) {
 
 std::string mood_text(const Mood& mood) {
   if (mood.intensity == 1) return mood.name;
-  char number[32];
-  const auto [end, error] = std::to_chars(number, number + sizeof number, mood.intensity);
-  return mood.name + ":" + std::string(number, end);
+  std::string text = mood.name + ":";
+  fap::detail::append_shortest(text, mood.intensity);
+  return text;
 }
 
 }  // namespace animeme::dam

@@ -7,12 +7,12 @@
 namespace animeme::head::detail {
 namespace {
 
-struct Look {
+struct MaterialLook {
   SurfaceKind surface;
   std::uint32_t colour;
 };
 
-Look look_of(Part part) {
+MaterialLook look_of(Part part) {
   const HeadParameters usual;
   switch (part) {
     case Part::skin:
@@ -125,7 +125,7 @@ void paint_eye(const Eye& eye, const std::vector<bool>& unknown, Mesh& mesh) {
 void colour_parts(Head& head) {
   for (std::size_t i = 0; i < head.parts.size(); ++i) {
     Mesh& mesh = head.parts[i];
-    const Look look = look_of(Part(i));
+    const MaterialLook look = look_of(Part(i));
     mesh.surface = look.surface;
     std::vector<bool> unknown(mesh.positions.size());
     for (std::size_t v = 0; v < unknown.size(); ++v) {

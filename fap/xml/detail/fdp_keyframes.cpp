@@ -27,10 +27,11 @@ std::vector<Vec3> placed(const Rig& rig, const Pose& pose, Part part) {
 }
 
 bool moves(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
-  return !std::ranges::equal(from, to, [](const Vec3& a, const Vec3& b) {
-    const Vec3 by = b - a;
-    return dot(by, by) <= kStill * kStill;
-  });
+  return !std::equal(from.begin(), from.end(), to.begin(), to.end(),
+                     [](const Vec3& a, const Vec3& b) {
+                       const Vec3 by = b - a;
+                       return dot(by, by) <= kStill * kStill;
+                     });
 }
 
 }  // namespace
