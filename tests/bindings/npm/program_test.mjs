@@ -97,10 +97,17 @@ test('a frame alone has the weights of a fit that has seen nothing, and there is
 test('a speaker says what the program says', async () => {
   const script = readFileSync(`${sample}/phonemes/prac8p.tsv`, 'utf8');
   run('speak', '--script', `${sample}/phonemes/prac8p.tsv`, '-o', 'talk.fap');
-  const speaker = await animeme.Speaker.load(readFileSync(`${source}/dam/model/builtin/grid_s1.dam`));
+  const speaker = await animeme.Speaker.load();
   assert.match(speaker.attribution, /GRID/);
   const frames = speaker.speak(script), want = readText(text('talk.fap'));
   assert.deepEqual(frames.map(faceOf), want);
+
+  // The same model as a file of the user's: with the articulation that the file asks for.
+  const model = `${source}/dam/model/builtin/grid_s1.dam`;
+  run('speak', '--script', `${sample}/phonemes/prac8p.tsv`, '--model', model, '-o', 'file.fap');
+  const ofFile = (await animeme.Speaker.load(readFileSync(model))).speak(script).map(faceOf);
+  assert.deepEqual(ofFile, readText(text('file.fap')));
+  assert.notDeepEqual(ofFile, want);
 
   // Phones as objects, and as they come.
   const phones = script.trim().split('\n').filter((line) => /^[0-9]/.test(line)).map((line) => {
@@ -125,7 +132,7 @@ test('a speaker says what the program says', async () => {
 
 test('moods, looks, parts that are still and the tongue are those of the program', async () => {
   const file = `${sample}/phonemes/prac8p.tsv`, script = readFileSync(file, 'utf8');
-  const speaker = await animeme.Speaker.load(readFileSync(`${source}/dam/model/builtin/grid_s1.dam`));
+  const speaker = await animeme.Speaker.load();
   const cases = [
     [{mood: 'joy:0.6', seed: 3}, ['--mood', 'joy:0.6', '--seed', '3']],
     [{mood: 'thinking', look: '20,-5', still: 'blinks,brows'}, ['--mood', 'thinking', '--look', '20,-5', '--still', 'blinks,brows']],

@@ -7,6 +7,10 @@ import {readFrame, SPEAK_OPTIONS_SIZE, writeSpeakOptions} from './structs.js';
 const NEED_DATA = 1;
 const builtin = new URL('../model/grid_s1.dam', import.meta.url);
 
+// The model of the package opens the mouth as far as text with it needs, as the program's built-in model does, which is
+// the same file. Models of others have a number of their own.
+const BUILTIN_ARTICULATION = 1;
+
 const withOptions = (module, options, use) => module.with(new Uint8Array(SPEAK_OPTIONS_SIZE), (at) => {
   module.functions.animeme_speak_options_init(at, SPEAK_OPTIONS_SIZE);
   writeSpeakOptions(module.memory, at, options);
@@ -24,10 +28,14 @@ export class Speaker extends Handle {
     const given = isBytes ? model : await bytesOf(model);
     const bytes = ArrayBuffer.isView(given) ? new Uint8Array(given.buffer, given.byteOffset, given.byteLength)
                                             : new Uint8Array(given);
-    return new Speaker(module, module.with(bytes, (at, size) => module.make('model_read', at, size)));
+    return new Speaker(module, module.with(bytes, (at, size) => module.make('model_read', at, size)),
+                       model === builtin ? BUILTIN_ARTICULATION : undefined);
   }
 
-  constructor(module, at) { super(module, 'model', at); }
+  constructor(module, at, articulation) {
+    super(module, 'model', at);
+    this.articulation = articulation;
+  }
 
   /** Who has to be named when the model is passed on. */
   get attribution() { return this.library.text(this.library.functions.animeme_model_attribution(this.handle)); }
@@ -36,7 +44,7 @@ export class Speaker extends Handle {
   speak(phones, options = {}) {
     const module = this.library;
     const script = typeof phones === 'string' ? phones : 'start_s\tend_s\tphone\n' + phones.map(line).join('');
-    const clip = module.with(script, (text, size) => withOptions(module, options, (given) =>
+    const clip = module.with(script, (text, size) => withOptions(module, this.completed(options), (given) =>
       module.make('speak', this.handle, text, size - 1, given)));
     try {
       const rate = rateOf(options);
@@ -54,8 +62,12 @@ export class Speaker extends Handle {
   /** Speech that is still being made: phones go in, frames come out as soon as they are final. */
   begin(options = {}) {
     const module = this.library;
-    return new Speech(module, withOptions(module, options, (given) => module.make('speech_new', this.handle, given)));
+    return new Speech(module, withOptions(module, this.completed(options),
+                                          (given) => module.make('speech_new', this.handle, given)));
   }
+
+  /** The options with what the model asks for where they say nothing. */
+  completed(options) { return {...options, articulation: options.articulation ?? this.articulation}; }
 }
 
 /** What Speaker.begin() gives. */
