@@ -158,6 +158,16 @@ bool MoodPose::neutral() const {
          std::all_of(expression.begin(), expression.end(), rests);
 }
 
+fap::Mask MoodPose::faps() const {
+  fap::Mask mask;
+  for (int f = fap::kFirstLowLevel; f <= fap::kFapCount; ++f) {
+    if (fap[std::size_t(f)] == 0) continue;
+    mask.set(std::size_t(f));
+    if (const int other = fap::info(f).mirror; other != 0) mask.set(std::size_t(other));
+  }
+  return mask;
+}
+
 MoodPose mood_pose(const Mood& mood) {
   MoodPose pose;
   const MoodRow* row = find_row(mood.name);
@@ -168,11 +178,7 @@ MoodPose mood_pose(const Mood& mood) {
 const fap::Mask& mood_faps() {
   static const fap::Mask all = [] {
     fap::Mask mask;
-    for (const MoodRow& row : kRows) {
-      const MoodPose pose = full_pose(row);
-      for (std::size_t f = 0; f < pose.fap.size(); ++f)
-        if (pose.fap[f] != 0) mask.set(f);
-    }
+    for (const MoodRow& row : kRows) mask |= full_pose(row).faps();
     return mask;
   }();
   return all;

@@ -32,11 +32,7 @@ std::span<double> row_of(Signal& signal, std::size_t frame) {
 
 void add_to_faps(Signal& signal, const MoodMouth& mouth, const MoodTrack& track) {
   fap::Mask wanted;
-  for (const MoodTrack::Part& part : track.parts()) {
-    const MoodPose pose = mood_pose(part.mood);
-    for (std::size_t f = 0; f < pose.fap.size(); ++f)
-      if (pose.fap[f] != 0) wanted.set(f);
-  }
+  for (const MoodTrack::Part& part : track.parts()) wanted |= mood_pose(part.mood).faps();
   for (const std::string& name : signal.names) wanted.reset(std::size_t(fap_of_channel(name)));
   std::vector<std::string> added;
   for (int f = fap::kFirstLowLevel; f <= fap::kFapCount; ++f)

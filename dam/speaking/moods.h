@@ -54,6 +54,9 @@ struct MoodPose {
   void add(const MoodPose& other, double share);
   /// Nothing moves.
   bool neutral() const;
+  /// The FAPs that it moves, and the other sides of these: a decoder gives a side that is never
+  /// sent the value of the other one, which would make a one-sided pose a pose of both sides.
+  fap::Mask faps() const;
 };
 
 /// The pose of a mood at its intensity.

@@ -213,6 +213,27 @@ TEST(Moods, TheRestOfTheFaceMovesFully) {
   EXPECT_GT(corners / double(plain.frames()), 0.6 * joy.fap[12]) << "a smile is seen in speech";
 }
 
+// A side that is never sent takes the value of the other one in decoders.
+TEST(Moods, OneSidedPosesStayOneSided) {
+  const Script script = speech(9);
+  const Signal plain = spoken(script);
+  std::size_t one_sided = 0;
+  for (const Mood& mood : all_moods()) {
+    const MoodPose pose = mood_pose(mood);
+    const Signal moody = with(plain, script, MoodTrack(mood));
+    for (int f = fap::kFirstLowLevel; f <= fap::kFapCount; ++f) {
+      const int other = fap::info(f).mirror;
+      if (pose.fap[std::size_t(f)] == 0 || other == 0) continue;
+      EXPECT_TRUE(pose.faps()[std::size_t(other)]) << mood.name << " FAP " << f;
+      const auto& names = moody.names;
+      EXPECT_NE(std::find(names.begin(), names.end(), fap_channel(other)), names.end())
+          << mood.name << " FAP " << other;
+      one_sided += pose.fap[std::size_t(other)] == 0;
+    }
+  }
+  EXPECT_GT(one_sided, 0u);
+}
+
 TEST(Moods, LidsThatBlinkClose) {
   Script script{{{0, 30, "SIL", ""}}};
   Signal signal = spoken(script, {100, 1});

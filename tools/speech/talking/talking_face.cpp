@@ -333,8 +333,7 @@ void TalkingFace::show_mood(fap::Frame& frame) {
   moods_.forget(now());
   const dam::MoodPose pose = moods_.neutral() ? dam::MoodPose() : moods_.at(now());
   // All that it moves at once: each change of the mask costs an intra plane.
-  for (std::size_t f = fap::kFirstLowLevel; f < pose.fap.size(); ++f)
-    if (pose.fap[f] != 0) mask_.set(f);
+  mask_ |= pose.faps();
   frame.mask = mask_;
   if (!pose.neutral()) dam::add_mood(pose, shares_, frame);
 }
