@@ -34,9 +34,10 @@ double eased(double share) {
   return 0.5 - 0.5 * std::cos(std::numbers::pi * std::clamp(share, 0.0, 1.0));
 }
 
-double frames_of(const Sequence& clip, double seconds) {
-  return std::max(seconds, 0.0) * clip.rate.frames_per_second();
+double frames_of(Rate rate, double seconds) {
+  return std::max(seconds, 0.0) * rate.frames_per_second();
 }
+double frames_of(const Sequence& clip, double seconds) { return frames_of(clip.rate, seconds); }
 
 void scale_intensities(Expression& expression, double factor) {
   for (std::int32_t* value : {&expression.intensity1, &expression.intensity2}) {
@@ -96,11 +97,15 @@ void scale(Sequence& clip, const Mask& faps, double factor) {
   }
 }
 
+double smooth_reach(Rate rate, double seconds) {
+  return std::ceil(3 * (frames_of(rate, seconds) / 2));
+}
+
 void smooth(Sequence& clip, const Mask& faps, double seconds) {
   const double deviation = frames_of(clip, seconds) / 2;
   if (deviation <= 0 || clip.frames.empty()) return;
   const auto count = std::ptrdiff_t(clip.frames.size());
-  const auto reach = std::ptrdiff_t(std::min(std::ceil(3 * deviation), double(count)));
+  const auto reach = std::ptrdiff_t(std::min(smooth_reach(clip.rate, seconds), double(count)));
   std::vector<double> weight(std::size_t(2 * reach + 1));
   double sum = 0;
   for (std::ptrdiff_t k = -reach; k <= reach; ++k) {
@@ -138,14 +143,19 @@ void mirror(Sequence& clip) {
 }
 
 void fade(Sequence& clip, double in, double out) {
-  const double rise = frames_of(clip, in), fall = frames_of(clip, out);
-  const auto count = double(clip.frames.size());
-  for (std::size_t i = 0; i < clip.frames.size(); ++i) {
-    const double from_begin = rise > 0 ? eased(double(i) / rise) : 1;
-    const double from_end = fall > 0 ? eased((count - 1 - double(i)) / fall) : 1;
+  fade(clip, in, out, {0, std::int64_t(clip.frames.size())});
+}
+
+void fade(Sequence& piece, double in, double out, const PieceOf& place) {
+  const double rise = frames_of(piece, in), fall = frames_of(piece, out);
+  const auto count = double(place.frames);
+  for (std::size_t k = 0; k < piece.frames.size(); ++k) {
+    const double i = double(place.first + std::int64_t(k));
+    const double from_begin = rise > 0 ? eased(i / rise) : 1;
+    const double from_end = fall > 0 ? eased((count - 1 - i) / fall) : 1;
     const double factor = std::min(from_begin, from_end);
     if (factor >= 1) continue;
-    Frame& frame = clip.frames[i];
+    Frame& frame = piece.frames[k];
     for (std::size_t fap = kFirstLowLevel; fap <= kFapCount; ++fap) {
       frame.value[fap] = rounded(frame.value[fap] * factor);
     }
@@ -154,18 +164,23 @@ void fade(Sequence& clip, double in, double out) {
 }
 
 void replace(Sequence& clip, const Sequence& from, const Mask& faps, double cross_fade) {
+  replace(clip, from, faps, cross_fade, {0, std::int64_t(clip.frames.size())},
+          std::int64_t(from.frames.size()));
+}
+
+void replace(Sequence& piece, const Sequence& from, const Mask& faps, double cross_fade,
+             const PieceOf& place, std::int64_t taken) {
   if (from.frames.empty()) return;
-  const double blend = frames_of(clip, cross_fade);
-  const bool ends = from.frames.size() < clip.frames.size();
-  const auto last = double(from.frames.size());
+  const double blend = frames_of(piece, cross_fade);
+  const bool ends = taken < place.frames;
   const Mask source = from.frames.front().mask;
-  for (std::size_t i = 0; i < clip.frames.size(); ++i) {
-    Frame& frame = clip.frames[i];
+  for (std::size_t i = 0; i < piece.frames.size(); ++i) {
+    Frame& frame = piece.frames[i];
     frame.mask |= source & faps;
     if (i >= from.frames.size()) continue;
-    const Frame& taken = from.frames[i];
-    const double weight = ends && blend > 0 ? eased((last - double(i)) / blend) : 1;
-    mix(frame, taken, Frame(frame), faps, weight);
+    const double left = double(taken) - double(place.first + std::int64_t(i));
+    const double weight = ends && blend > 0 ? eased(left / blend) : 1;
+    mix(frame, from.frames[i], Frame(frame), faps, weight);
   }
 }
 

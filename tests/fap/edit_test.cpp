@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "fap/fill.h"
 #include "fap/tables.h"
 #include "tests/support/random_clip.h"
 
@@ -118,6 +120,39 @@ TEST(Edit, FadesFromRestAndToRest) {
   EXPECT_EQ(clip.frames[0].expression.intensity1, 0);
   EXPECT_EQ(clip.frames[2].expression.intensity1, 30);
   EXPECT_EQ(clip.frames[8].expression.intensity1, 60);
+}
+
+// What long clips are edited by: pieces with as many neighbours as smoothing wants.
+TEST(Edit, PiecesAreThoseOfTheWhole) {
+  const Sequence clip = *fill(test::random_clip(3, 200));
+  const Sequence other = *fill(test::random_clip(4, 120));
+  const Mask lips = *region_faps("lips");
+  const Mask all = Mask().set().reset(0);
+  Sequence whole = clip;
+  replace(whole, other, lips, 1.5);
+  smooth(whole, all, 0.3);
+  fade(whole, 1, 4);
+  const auto reach = std::int64_t(smooth_reach(clip.rate, 0.3));
+  EXPECT_GE(reach, 4);
+  const auto count = std::int64_t(clip.frames.size()), step = std::int64_t(37);
+  for (std::int64_t first = 0; first < count; first += step) {
+    const std::int64_t from = std::max<std::int64_t>(first - reach, 0);
+    const std::int64_t to = std::min(first + step + reach, count);
+    const auto slice = [&](const Sequence& from_clip) {
+      Sequence piece{clip.rate, {}, {}};
+      for (std::int64_t i = from; i < std::min(to, std::int64_t(from_clip.frames.size())); ++i) {
+        piece.frames.push_back(from_clip.frames[std::size_t(i)]);
+      }
+      return piece;
+    };
+    Sequence piece = slice(clip);
+    replace(piece, slice(other), lips, 1.5, {from, count}, std::int64_t(other.frames.size()));
+    smooth(piece, all, 0.3);
+    fade(piece, 1, 4, {from, count});
+    for (std::int64_t i = first; i < std::min(first + step, count); ++i) {
+      EXPECT_EQ(piece.frames[std::size_t(i - from)].value, whole.frames[std::size_t(i)].value) << i;
+    }
+  }
 }
 
 TEST(Edit, TakesFapsFromAnotherClip) {

@@ -5,8 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fap/edit.h"
+#include "fap/fill.h"
+#include "fap/receiver.h"
 #include "fap/text.h"
 #include "tests/support/program.h"
+#include "tests/support/random_clip.h"
 #include "tools/formats/media/audio.h"
 #include "tools/formats/media/container.h"
 #include "tools/formats/media/text_track.h"
@@ -219,6 +223,42 @@ TEST(EditCommand, ChangesParts) {
   expect_run({"edit", dir / "t.fap", "--mirror", "-o", dir / "m.fap"});
   expect_run({"edit", dir / "m.fap", "--mirror", "-o", dir / "mm.fap"});
   EXPECT_EQ(rows(dir / "mm.fap"), taken);
+}
+
+// Several times as long as what is in memory at once, changed there as a whole for comparison.
+TEST(EditCommand, ChangesLongClipsAsTheWhole) {
+  const TempDir dir;
+  fap::Sequence clip = *fap::fill(test::random_clip(21, 7000)), other = clip;
+  other.frames.resize(5000);
+  std::reverse(other.frames.begin(), other.frames.end());
+  for (fap::Sequence* each : {&clip, &other}) {
+    for (std::size_t i = 0; i < each->frames.size(); ++i) {
+      fap::Frame& frame = each->frames[i];
+      frame.number = std::int64_t(i);
+      frame.mask.reset(1).reset(2);
+      frame = fap::with_mask(frame, frame.mask);
+    }
+  }
+  test::spill(dir / "clip.fap", fap::write_text(clip));
+  test::spill(dir / "other.fap", fap::write_text(other));
+  expect_run({"edit", dir / "clip.fap", dir / "other.fap", "--cross-fade", "2", "--mirror",
+              "--take", "head=" + (dir / "other.fap") + ",lids=" + (dir / "other.fap"), "--scale",
+              "brows=0.5", "--smooth", "all=0.4,jaw=0.2", "--fade", "20", "-o", dir / "is.fap"});
+  fap::append(clip, other, 2);
+  fap::mirror(clip);
+  for (const char* part : {"head", "lids"}) {
+    fap::replace(clip, other, *fap::region_faps(part), 2);
+  }
+  fap::scale(clip, *fap::region_faps("brows"), 0.5);
+  fap::smooth(clip, fap::Mask().set().reset(0), 0.4);
+  fap::smooth(clip, *fap::region_faps("jaw"), 0.2);
+  fap::fade(clip, 20, 20);
+  const auto is = fap::read_text(test::slurp(dir / "is.fap"));
+  ASSERT_TRUE(is);
+  ASSERT_EQ(is->frames.size(), clip.frames.size());
+  for (std::size_t i = 0; i < clip.frames.size(); ++i) {
+    ASSERT_EQ(is->frames[i].value, clip.frames[i].value) << i;
+  }
 }
 
 TEST(EditCommand, ConvertsRatesOfFacesAndBodies) {

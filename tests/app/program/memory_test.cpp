@@ -138,6 +138,12 @@ TEST(Memory, DoesNotGrowWithTheText) {
   }
   expect_flat({"edit", stream, stream, "--from", "10", "--offset", "-1", "-o", dir / "cut.fba"},
               kMost);
+  // With changed values.
+  expect_flat({"edit", text, "--speed", "1.3", "--take", "lips=" + text, "-o", dir / "changed.fba"},
+              kMost);
+  expect_flat({"edit", stream, "--scale", "lips=0.9", "--smooth", "head=0.2,lips=0.1", "--mirror",
+               "--fade", "20", "-o", dir / "changed.fap"},
+              kMost);
 }
 
 }  // namespace memory_test

@@ -6,6 +6,7 @@
 #include "codec/decode/fill.h"
 #include "fap/rate_text.h"
 #include "tools/app/commands/common.h"
+#include "tools/app/commands/edit_frames.h"
 #include "tools/app/commands/edit_options.h"
 #include "tools/app/commands/edit_source.h"
 #include "tools/app/commands/face_text.h"
@@ -88,7 +89,7 @@ Result<Decoded> look_at(const PlaneFile& file, DecodeOptions& options) {
 Result<Decoded> read_piece(const DecodeOptions& options) {
   const auto piece = options.span.piece();
   if (!piece) return piece.error();
-  const auto source = read_edit_source(options.input);
+  const auto source = open_edit_source(options.input);
   if (!source) return source.error();
   const std::int64_t first = piece->from.frame(source->rate);
   const std::int64_t end =
@@ -99,14 +100,31 @@ Result<Decoded> read_piece(const DecodeOptions& options) {
         .in_file(options.input);
   }
   const EditCut cut{&*source, first, end};
-  const auto complete = complete_face(*source);
-  if (!complete) return complete.error();
+  const auto extent = extent_of(*source);
+  if (!extent) return extent.error();
   Decoded decoded;
   decoded.motion.kind = source->motion.kind;
-  decoded.motion.face = face_frames(cut, *complete);
+  decoded.motion.face = {source->rate, {}, source->motion.face.name};
   decoded.motion.body.rate = source->rate;
   decoded.motion.body.name = source->motion.body.name;
-  decoded.motion.body.frames = body_frames(cut);
+  const auto keep = [](auto reader, auto& frames) -> Result<void> {
+    for (;;) {
+      const auto frame = reader.next();
+      if (!frame) return frame.error();
+      if (*frame == nullptr) return {};
+      frames.push_back(**frame);
+    }
+  };
+  if (extent->has_face()) {
+    auto done =
+        keep(FaceFrames(cut, *extent, source->rate, source->rate), decoded.motion.face.frames);
+    if (!done) return done.error();
+  }
+  if (extent->has_body()) {
+    auto done =
+        keep(BodyFrames(cut, *extent, source->rate, source->rate), decoded.motion.body.frames);
+    if (!done) return done.error();
+  }
   decoded.bodies = std::int64_t(decoded.motion.body.frames.size());
   decoded.face = !decoded.motion.face.frames.empty();
   return decoded;

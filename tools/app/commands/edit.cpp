@@ -226,30 +226,51 @@ std::string tell_planes(const fba::SpliceReport& report) {
   return text;
 }
 
-Result<std::vector<std::uint8_t>> coded_again(const EditedMotion& motion,
-                                              const EditSettings& options) {
+// The number of planes that were given to `take`.
+Result<std::int64_t> code_again(const Plan& plan, const EditSettings& options,
+                                const TakeStream& take) {
+  const auto motion = EditedMotion::open(plan.shown, plan.rate, plan.changes);
+  if (!motion) return motion.error();
   fba::EncodeOptions coding = encode_options(options.stream);
   coding.leave_out = true;
   coding.bap_quant = options.stream.quant;
   if (is_container(options.output)) coding.intra_seconds = options.stream.intra_seconds;
   AtStep step(Step::coding);
-  return encode_face(motion.face, coding, motion.body.frames);
+  const fba::ClipSource source{
+      motion->rate(), [&motion](const fba::TakeInstant& instant) { return motion->each(instant); }};
+  const auto report = fba::encode_long(source, coding, take);
+  if (!report) return report.error();
+  if (coding.default_ranges) warn_of_default_ranges(report->default_ranges);
+  return std::max(motion->faces(), motion->bodies());
 }
 
 Result<int> write_text(const Plan& plan, const EditSettings& options) {
-  const auto motion = change_motion(plan.shown, plan.rate, plan.changes);
+  const auto motion = EditedMotion::open(plan.shown, plan.rate, plan.changes);
   if (!motion) return motion.error();
   const bool body = extension_of(options.output) == ".bap";
-  if (body ? motion->body.frames.empty() : motion->face.frames.empty()) {
+  if (body ? motion->bodies() == 0 : motion->faces() == 0) {
     return make_error(Code::not_found, body ? "there is no body for a .bap" : "there is no face")
         .in_file(plan.sources.front().path);
   }
   OutputFile file(options.output);
-  std::int64_t frames = std::int64_t(motion->body.frames.size());
+  std::int64_t frames = motion->bodies();
   if (body) {
-    if (auto done = file.write(fba::write_bap_text(motion->body)); !done) return done.error();
+    fba::BodySequence bodies{motion->rate(), {}, motion->name()};
+    const auto keep = [&](const fap::Frame*, const fba::BodyFrame* frame) -> Result<void> {
+      if (frame != nullptr) bodies.frames.push_back(*frame);
+      return {};
+    };
+    if (auto done = motion->each(keep); !done) return done.error();
+    if (auto done = file.write(fba::write_bap_text(bodies)); !done) return done.error();
   } else {
-    FaceText text = face_text(motion->face);
+    FaceText text;
+    text.frames = [&motion](const TakeFrame& take) {
+      return motion->each([&take](const fap::Frame* face, const fba::BodyFrame*) {
+        return face == nullptr ? Result<void>() : take(*face, fap::GroupRules{});
+      });
+    };
+    text.rate = motion->rate();
+    text.name = motion->name();
     text.expand_mixed = true;
     const auto written = write_face_text(file, name_of_output(options.output), text);
     if (!written) return written.error();
@@ -348,10 +369,6 @@ Result<int> run(EditSettings options) {
                       "only FBA streams of one frame rate can be copied; leave --copy out")
         .in_file(plan.sources.front().path);
   }
-  for (EditSource& source : plan.sources) {
-    if (copying) break;
-    if (auto ok = load_motion(source); !ok) return ok.error();
-  }
   if (text) return write_text(plan, options);
   std::optional<Scratch> scratch;
   if (container) {
@@ -374,14 +391,10 @@ Result<int> run(EditSettings options) {
     facts = {
         {"planes", report->planes}, {"recoded", report->recoded}, {"changed", report->changed}};
   } else {
-    auto motion = change_motion(plan.shown, plan.rate, plan.changes);
-    if (!motion) return motion.error();
-    const auto coded = coded_again(*motion, options);
-    if (!coded) return coded.error();
-    if (auto done = take(*coded); !done) return done.error();
-    const std::size_t count = std::max(motion->face.frames.size(), motion->body.frames.size());
-    planes = std::to_string(count) + " planes coded again";
-    facts = {{"planes", count}, {"recoded", count}};
+    const auto count = code_again(plan, options, take);
+    if (!count) return count.error();
+    planes = std::to_string(*count) + " planes coded again";
+    facts = {{"planes", *count}, {"recoded", *count}};
   }
   if (auto done = file.publish(); !done) return done.error();
   if (container) {

@@ -2,12 +2,16 @@
 /// Changes of motion by edit: what needs the planes to be coded again.
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
-#include "codec/text/bap_text.h"
+#include "codec/encode/long_clip.h"
 #include "fap/frame.h"
 #include "fap/result.h"
+#include "tools/app/commands/edit_frames.h"
 #include "tools/app/commands/edit_options.h"
 #include "tools/app/commands/edit_source.h"
 
@@ -32,14 +36,29 @@ struct EditChanges {
   }
 };
 
-/// A face and a body, complete frame by frame.
-struct EditedMotion {
-  fap::Sequence face;      ///< no frames: there is none
-  fba::BodySequence body;  ///< likewise
-};
+/// Cuts that are joined at a rate and changed: a face and a body, complete frame by frame. They are
+/// read again each time they are wanted. Memory: about a megabyte, the first seconds of a cut for
+/// which it is cross-faded, and of a smoothed face six times as many seconds as are smoothed.
+class EditedMotion {
+ public:
+  /// Reads each source once. The sources of the cuts outlive it. Errors: those of extent_of(), and
+  /// of open_edit_source() for files of takes; not_found (a file does not have what is taken).
+  static Result<EditedMotion> open(std::vector<EditCut> cuts, fap::Rate rate, EditChanges changes);
+  EditedMotion(EditedMotion&&) noexcept;  ///< movable
+  EditedMotion& operator=(EditedMotion&&) noexcept;
+  ~EditedMotion();
 
-/// Joins cuts at a rate and changes them. Errors: those of read_edit_source() for files of takes.
-Result<EditedMotion> change_motion(const std::vector<EditCut>& cuts, fap::Rate rate,
-                                   const EditChanges& changes);
+  fap::Rate rate() const;           ///< frames per second
+  const std::string& name() const;  ///< of the first source
+  std::int64_t faces() const;       ///< frames with a face, from 0 on; 0: there is none
+  std::int64_t bodies() const;      ///< likewise with a body
+  /// Hands over all frames, numbered from 0, each time it is called. Errors: io, those of `take`.
+  Result<void> each(const fba::TakeInstant& take) const;
+
+ private:
+  struct Impl;
+  explicit EditedMotion(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
 
 }  // namespace animeme::tools

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "codec/decode/access_unit.h"
-#include "codec/decode/fill.h"
 #include "tools/formats/files/output_file.h"
 #include "tools/formats/media/container.h"
 #include "tools/formats/programs/scratch_folder.h"
@@ -110,15 +110,34 @@ Result<std::optional<EditSource>> open_stream(const std::string& path) {
   }
   if (!survey(source, *stream)) return std::optional<EditSource>();
   source.stream = std::move(stream);
+  source.motion.kind = start ? FileKind::media : FileKind::fba_stream;
+  source.motion.face.name = std::filesystem::path(path).stem().string();
+  source.motion.body.name = source.motion.face.name;
   if (start) {
     if (auto ok = add_container(source, *start); !ok) return ok.error();
   }
   return std::optional(std::move(source));
 }
 
-}  // namespace
+Error without_motion(const std::string& path) {
+  return make_error(Code::not_found, "there is neither a face nor a body").in_file(path);
+}
 
-Result<EditSource> read_edit_source(const std::string& path) {
+Result<EditSource> open_text(const std::string& path) {
+  auto text = FapFile::open(path);
+  if (!text) return text.error();
+  EditSource source;
+  source.path = path;
+  source.motion.kind = FileKind::fap_text;
+  source.motion.face.name = text->survey().name;
+  source.rate = text->survey().rate;
+  source.frames = text->survey().last + 1;
+  if (source.frames == 0) return without_motion(path);
+  source.text = std::move(*text);
+  return source;
+}
+
+Result<EditSource> read_source(const std::string& path) {
   auto motion = read_motion(path);
   if (!motion) return motion.error();
   EditSource source;
@@ -127,76 +146,19 @@ Result<EditSource> read_edit_source(const std::string& path) {
   const bool face = !source.motion.face.frames.empty();
   source.rate = face ? source.motion.face.rate : source.motion.body.rate;
   source.frames = frames_of_motion(source.motion);
-  if (source.frames == 0) {
-    return make_error(Code::not_found, "there is neither a face nor a body").in_file(path);
-  }
+  if (source.frames == 0) return without_motion(path);
   if (source.motion.kind != FileKind::media) return source;
   if (auto ok = add_container(source, source.motion.start); !ok) return ok.error();
   return source;
 }
 
+}  // namespace
+
 Result<EditSource> open_edit_source(const std::string& path) {
+  if (FapFile::can_read(path)) return open_text(path);
   auto source = open_stream(path);
   if (!source) return source.error();
-  return *source ? Result<EditSource>(std::move(**source)) : read_edit_source(path);
-}
-
-Result<void> load_motion(EditSource& source) {
-  if (source.stream == nullptr) return {};
-  auto motion = read_motion(source.path);
-  if (!motion) return motion.error();
-  source.motion = std::move(*motion);
-  source.stream.reset();
-  return {};
-}
-
-Result<fap::Sequence> complete_face(const EditSource& source) {
-  const fap::Sequence& face = source.motion.face;
-  if (face.frames.empty()) return fap::Sequence{source.rate, {}, face.name};
-  fap::FillOptions options;
-  options.keep_high_level = true;
-  if (!source.coded()) options.mirror = options.lips = false;  // a text leaves them undefined
-  auto complete =
-      source.coded() ? fba::fill(source.motion.decoded, options) : fap::fill(face, options);
-  if (!complete) return complete.error().in_file(source.path);
-  complete->rate = source.rate;
-  complete->name = face.name;
-  return complete;
-}
-
-fap::Sequence face_frames(const EditCut& cut, const fap::Sequence& complete) {
-  fap::Sequence clip{complete.rate, {}, complete.name};
-  if (complete.frames.empty()) return clip;
-  const auto last = std::int64_t(complete.frames.size()) - 1;
-  clip.frames.reserve(std::size_t(cut.end - cut.first));
-  for (std::int64_t frame = cut.first; frame < cut.end; ++frame) {
-    const auto at = std::clamp<std::int64_t>(frame - cut.source->lead, 0, last);
-    clip.frames.push_back(complete.frames[std::size_t(at)]);
-    clip.frames.back().number = frame - cut.first;
-  }
-  return clip;
-}
-
-std::vector<fba::BodyFrame> body_frames(const EditCut& cut) {
-  const EditSource& source = *cut.source;
-  const std::vector<fba::BodyFrame>& frames = source.motion.body.frames;
-  std::vector<fba::BodyFrame> body;
-  if (frames.empty()) return body;
-  fba::BodyFrame held;
-  for (const fba::BodyFrame& frame : frames) held.mask |= frame.mask;  // one mask for all
-  std::size_t next = 0;
-  for (std::int64_t frame = std::min<std::int64_t>(cut.first, source.lead); frame < cut.end;
-       ++frame) {
-    const std::int64_t at = std::max<std::int64_t>(frame - source.lead, frames.front().number);
-    for (; next < frames.size() && frames[next].number <= at; ++next) {
-      for (std::size_t bap = 1; bap < held.value.size(); ++bap) {
-        if (frames[next].mask[bap]) held.value[bap] = frames[next].value[bap];
-      }
-    }
-    held.number = frame - cut.first;
-    if (frame >= cut.first) body.push_back(held);
-  }
-  return body;
+  return *source ? Result<EditSource>(std::move(**source)) : read_source(path);
 }
 
 }  // namespace animeme::tools

@@ -1,5 +1,5 @@
 /// @file
-/// The inputs of edit on one time line: frames of the face and the body, sound and words.
+/// The inputs of edit on one time line: motion, sound and words.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "fap/fill.h"
 #include "tools/app/commands/common.h"
+#include "tools/app/commands/fap_file.h"
 #include "tools/app/commands/plane_file.h"
 #include "tools/formats/media/text_track.h"
 #include "tools/formats/programs/scratch_folder.h"
@@ -29,8 +29,9 @@ struct EditStream {
 /// One input file. Its frames count from 0; frame k is shown at k / rate seconds.
 struct EditSource {
   std::string path;    ///< of the file
-  MotionInput motion;  ///< with the decoded planes, if it is a stream in memory
-  std::shared_ptr<const EditStream> stream;  ///< null: the motion is in memory
+  MotionInput motion;  ///< with the decoded planes, if it is a stream in memory; kind and names
+  std::shared_ptr<const EditStream> stream;  ///< it stays in its file; null: see below
+  std::optional<FapFile> text;               ///< likewise; neither: the motion is in memory
   fap::Rate rate;                            ///< of the face, or of the body if there is none
   std::int64_t lead = 0;    ///< frames of sound before the motion, in which its first pose is held
   std::int64_t frames = 0;  ///< of the whole: motion, the frames that its last plane skips, sound
@@ -42,13 +43,10 @@ struct EditSource {
   bool coded() const { return stream != nullptr || !motion.stream.empty(); }
 };
 
-/// Reads an input with motion into memory. Errors: those of read_motion(); not_found (there is no
-/// motion).
-Result<EditSource> read_edit_source(const std::string& path);
-/// The same, but an intact stream in a file, or in a container on disk, stays there.
+/// Opens an input with motion. An intact stream in a file, or in a container on disk, stays there,
+/// and so does a FAP text; anything else is read into memory. Errors: those of read_motion();
+/// not_found (there is no motion).
 Result<EditSource> open_edit_source(const std::string& path);
-/// Reads the motion of such a source into memory, to be changed.
-Result<void> load_motion(EditSource& source);
 
 /// Frames `first` up to `end` of a source.
 struct EditCut {
@@ -56,13 +54,5 @@ struct EditCut {
   std::int64_t first = 0;              ///< first frame
   std::int64_t end = 0;                ///< behind the last frame
 };
-
-/// The complete face of a source (fap/fill.h), without the lead; no frames if it has none. Errors:
-/// those of fap::fill().
-Result<fap::Sequence> complete_face(const EditSource& source);
-/// One frame of it, `complete`, for each of a cut, numbered from 0.
-fap::Sequence face_frames(const EditCut& cut, const fap::Sequence& complete);
-/// Likewise the body, held where planes have none.
-std::vector<fba::BodyFrame> body_frames(const EditCut& cut);
 
 }  // namespace animeme::tools
