@@ -37,8 +37,7 @@ case $mode in
   tests | full | bindings) packages="$packages ca-certificates ccache libgtest-dev libgmock-dev libbenchmark-dev" ;;
 esac
 case $mode in
-  full) packages="$packages clang-14 libclang-rt-14-dev llvm-14 lld-14 wasi-libc libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32
-    libc++-14-dev libc++abi-14-dev" ;;
+  full) packages="$packages clang-14 libclang-rt-14-dev llvm-14 lld-14 wasi-libc libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32" ;;
 esac
 if [ "$mode" = packages ]; then
   packages="$packages dpkg-dev debhelper fakeroot doxygen lintian mmdebstrap libopenmpi-dev

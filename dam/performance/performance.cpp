@@ -200,8 +200,8 @@ void Performance::find_slow() {
   const auto around = [&](std::size_t i, const auto& read, double share) {
     std::vector<float> values;
     const double middle = double(i) * kPlayedSlowStep;
-    const auto first = std::max<std::ptrdiff_t>(0, std::llround((middle - kPlayedWindow) * rate));
-    const auto end = std::min<std::ptrdiff_t>(last, std::llround((middle + kPlayedWindow) * rate));
+    const auto first = std::max<std::ptrdiff_t>(0, std::lround((middle - kPlayedWindow) * rate));
+    const auto end = std::min<std::ptrdiff_t>(last, std::lround((middle + kPlayedWindow) * rate));
     for (auto f = std::min(first, end); f <= end; ++f)
       values.push_back(read(clip_.frames[std::size_t(f)]));
     return fap::detail::quantile(values, share);
