@@ -1,9 +1,12 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "codec/encode/encode.h"
 #include "dam/script/script.h"
+#include "dam/signal/closure.h"
 #include "dam/signal/fap_signal.h"
 #include "dam/speaking/idle_motion.h"
 #include "dam/speaking/moods.h"
@@ -44,6 +47,7 @@ struct SpeakOptions {
   std::string model;
   std::string rate = "25";
   std::string save_script;
+  std::string report;  // file of --report
   StreamSettings stream;
   SoundSettings sound;
   dam::SynthesisOptions motion;
@@ -239,10 +243,66 @@ Json language_json(const voice::SpokenLanguage& part) {
           {"voice", part.voice}, {"text", part.text}, {"by_itself", part.by_itself}};
 }
 
-Json cue_json(const speech::FittedCue& one) {
-  return {{"text", one.cue.text}, {"start", one.cue.start},      {"end", one.cue.end},
-          {"said", one.start},    {"seconds", one.seconds},      {"speed", one.speed},
-          {"late", one.late},     {"pauses_cut", one.shortened}, {"cut_characters", one.cut}};
+// P, B and M of a part of the speech, and how many of them close the lips.
+struct ClosedLips {
+  std::size_t phones = 0, closed = 0;
+};
+
+// Of the face as it is shown, with all that lies over the speech.
+struct LipClosures {
+  std::vector<std::pair<double, bool>> phones;  // middle in seconds, closed
+
+  ClosedLips between(double start, double end) const {
+    ClosedLips count;
+    for (const auto& [time, closed] : phones) {
+      if (time < start || time >= end) continue;
+      ++count.phones;
+      count.closed += closed ? 1 : 0;
+    }
+    return count;
+  }
+};
+
+// nullopt: the signal has no lips of FAPs.
+std::optional<LipClosures> lip_closures_of(const dam::Signal& signal, const dam::Script& script) {
+  const auto lips = dam::inner_lip_channels(signal.names);
+  if (!lips) return {};
+  LipClosures all;
+  for (const dam::Phone& phone : script.phones) {
+    if (!dam::is_bilabial(phone.label)) continue;
+    const dam::FrameSpan span = dam::frames_near(signal, phone, dam::kClosureSearch);
+    bool closed = false;
+    for (std::size_t frame = span.first; frame < span.last; ++frame)
+      closed = closed || dam::inner_gap(signal, frame, *lips) < dam::kClosedGap;
+    all.phones.emplace_back((phone.start + phone.end) / 2, closed);
+  }
+  return all;
+}
+
+Json closures_json(const std::optional<LipClosures>& lips, double start, double end) {
+  if (!lips) return {};
+  const ClosedLips count = lips->between(start, end);
+  return {{"phones", count.phones}, {"closed", count.closed}};
+}
+
+// What is told of the face that was written first.
+struct ShownFace {
+  std::optional<dam::OverReport> over;
+  std::optional<LipClosures> lips;
+};
+
+Json cue_json(const speech::FittedCue& one, const ShownFace& shown) {
+  return {{"text", one.cue.text},
+          {"start", one.cue.start},
+          {"end", one.cue.end},
+          {"said", one.start},
+          {"seconds", one.seconds},
+          {"speed", one.speed},
+          {"late", one.late},
+          {"pauses_cut", one.shortened},
+          {"cut_characters", one.cut},
+          {"confidence", one.confidence ? Json(*one.confidence) : Json(nullptr)},
+          {"closures", closures_json(shown.lips, one.start, one.start + one.seconds)}};
 }
 
 Json over_json(const dam::OverReport& over) {
@@ -255,12 +315,9 @@ Json over_json(const dam::OverReport& over) {
           {"filled", numbers_of(over.filled)}};
 }
 
-void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam::Signal& signal,
-            const dam::SynthesisReport& synthesis, const std::optional<dam::OverReport>& over) {
-  for (const auto& [label, by] : synthesis.replaced) {
-    say_more("the model has no phone " + label + ": it is spoken as " + by);
-  }
-  if (!options.json) return;
+Json report_json(const SpeakOptions& options, const speech::Spoken& spoken,
+                 const dam::Signal& signal, const dam::SynthesisReport& synthesis,
+                 const ShownFace& shown) {
   Json replaced = Json::object();
   for (const auto& [label, by] : synthesis.replaced) replaced[label] = by;
   const bool heard = spoken.heard.has_value();
@@ -277,6 +334,7 @@ void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam
                {"replaced", replaced},
                {"closures_forced", synthesis.closures},
                {"lip_tooth_forced", synthesis.lip_tooth_contacts},
+               {"closures", closures_json(shown.lips, 0, 1e9)},
                {"recognised", heard},
                {"languages", json_list(spoken.languages, language_json)},
                {"marks", json_list(spoken.marks,
@@ -285,8 +343,11 @@ void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam
                                    })},
                {"warnings", spoken.warnings}};
   if (options.outputs.size() > 1) json["outputs"] = options.outputs;
-  if (over) json["over"] = over_json(*over);
-  if (!spoken.cues.empty()) json["cues"] = json_list(spoken.cues, cue_json);
+  if (shown.over) json["over"] = over_json(*shown.over);
+  if (!spoken.cues.empty()) {
+    json["cues"] = json_list(
+        spoken.cues, [&](const speech::FittedCue& one) -> Json { return cue_json(one, shown); });
+  }
   if (heard) {
     json["warnings"] = spoken.heard->warnings;
     json["heard"] = json_list(heard_phones(spoken), [](const RecognisedPhone& one) -> Json {
@@ -302,13 +363,36 @@ void report(const SpeakOptions& options, const speech::Spoken& spoken, const dam
               {"confidence", one.confidence}};
     });
   }
-  std::printf("%s\n", pretty(json).c_str());
+  return json;
 }
 
-// options.output, of a face that moves by the phones alone. `over` receives how a performance lies
-// below it.
+// A file beside an output names it without the folder, which may be moved.
+std::string name_beside(const std::string& output, const std::string& file) {
+  const std::filesystem::path path(output);
+  return path.parent_path() == std::filesystem::path(file).parent_path() ? path.filename().string()
+                                                                         : output;
+}
+
+Result<void> report(const SpeakOptions& options, const speech::Spoken& spoken,
+                    const dam::Signal& signal, const dam::SynthesisReport& synthesis,
+                    const ShownFace& shown) {
+  for (const auto& [label, by] : synthesis.replaced) {
+    say_more("the model has no phone " + label + ": it is spoken as " + by);
+  }
+  if (!options.json && options.report.empty()) return {};
+  Json json = report_json(options, spoken, signal, synthesis, shown);
+  if (options.json) std::printf("%s\n", pretty(json).c_str());
+  if (options.report.empty()) return {};
+  json["output"] = name_beside(options.outputs.front(), options.report);
+  if (json.contains("outputs")) {
+    for (Json& one : json["outputs"]) one = name_beside(one.text(), options.report);
+  }
+  return write_file(options.report, pretty(json) + "\n");
+}
+
+// options.output, of a face that moves by the phones alone. `shown` receives what it looks like.
 Result<int> write_output(const SpeakOptions& options, dam::Signal signal,
-                         const speech::Spoken& spoken, std::optional<dam::OverReport>& over) {
+                         const speech::Spoken& spoken, ShownFace& shown) {
   // Curves belong to the model's rig, and players of visemes have no brows.
   const bool curves = extension_of(options.output) == ".csv" && !is_arkit_output(options.output);
   const bool plain = curves || options.visemes == "instead";
@@ -325,7 +409,7 @@ Result<int> write_output(const SpeakOptions& options, dam::Signal signal,
     settings.idle = lives ? std::optional(idle) : std::nullopt;
     auto put = dam::speak_over(signal, spoken.script, *options.performance, settings);
     if (!put) return put.error();
-    over = std::move(*put);
+    shown.over = std::move(*put);
   } else if (lives) {
     auto added = dam::add_idle_motion(signal, spoken.script, idle);
     if (!added && options.idle.on.has_value()) return added.error();
@@ -338,6 +422,7 @@ Result<int> write_output(const SpeakOptions& options, dam::Signal signal,
     auto added = dam::add_moods(signal, spoken.script, moods);
     if (!added && !options.mood.empty()) return added.error();
   }
+  if (!shown.lips) shown.lips = lip_closures_of(signal, spoken.script);
   if (is_arkit_output(options.output)) return write_arkit(options, signal);
   if (curves) return write_curves(options.output, signal);
   Result<fap::Sequence> clip = dam::to_sequence(signal);
@@ -430,8 +515,10 @@ Result<int> run(SpeakOptions& options) {
     if (!options.expressions.empty() && curves)
       return usage_error("--expressions is for FAPs, which .csv and .json do not hold");
   }
+  if (!options.spoken.tts.empty() && !options.spoken.script.empty() && options.fit.empty()) {
+    return usage_error("--tts excludes --script, but for subtitles that it speaks with --fit");
+  }
   if (!options.fit.empty()) {
-    if (!options.spoken.audio.empty()) return usage_error("--fit makes the sound that --audio has");
     const auto range = speech::parse_fit_range(options.fit);
     if (!range) return range.error();
     options.spoken.fit = *range;
@@ -471,13 +558,13 @@ Result<int> run(SpeakOptions& options) {
     return signal.error().in_file(spoken->heard ? options.spoken.audio : options.spoken.script);
   }
   Result<int> written = kOk;
-  std::optional<dam::OverReport> over;
+  ShownFace shown;
   SpeakOptions one = options;
   if (spoken->audio && options.idle.on.value_or(true))
     one.prosody = voice::measure_prosody(*spoken->audio);
   for (const std::string& output : options.outputs) {
     one.output = output;
-    written = write_output(one, *signal, *spoken, over);
+    written = write_output(one, *signal, *spoken, shown);
     if (!written || *written != kOk) return written;
   }
   // Last, so that a failure leaves no file behind.
@@ -486,7 +573,7 @@ Result<int> run(SpeakOptions& options) {
         spoken->script, spoken->marks, extension_of(options.save_script), doubts_of(*spoken));
     if (auto done = write_file(options.save_script, text); !done) return done.error();
   }
-  report(options, *spoken, *signal, synthesis, over);
+  if (auto done = report(options, *spoken, *signal, synthesis, shown); !done) return done.error();
   return written;
 }
 
@@ -497,7 +584,8 @@ void add_options(OptionTable& cli, SpeakOptions& options) {
           "--text-file, --script and --audio")
       ->value("TEXT");
   add_spoken_options(cli, options.spoken);
-  cli.get("--transcript")->needed.clear();  // the recording may be `text`
+  cli.get("--transcript")->needed.clear();   // the recording may be `text`
+  cli.get("--tts")->excluded = {"--audio"};  // with --fit it speaks a script
   cli.add("-o,--output", options.outputs,
           "File to write; may be repeated: .mp4 .mkv .ts .m3u8 .mpd (face and sound), .fba "
           "(stream), .fap (text), .csv (curves of the model), .livelink.csv (Live Link "
@@ -521,8 +609,8 @@ void add_options(OptionTable& cli, SpeakOptions& options) {
   add_mood_option(cli, options.mood);
   add_over_options(cli, options.over, true);
   cli.add("--fit", options.fit,
-          "Speak the subtitles of --script with a voice, each in its time, at 0.8-1.3 of its usual "
-          "speed (or another range); what does not fit is reported")
+          "Speak the subtitles of --script with a voice, or put those that --audio says into their "
+          "times, at 0.8-1.3 of its usual speed (or another range); what does not fit is reported")
       ->value("SLOWEST-FASTEST")
       ->check(problem_of<speech::parse_fit_range>)
       ->needs("--script");
@@ -552,11 +640,13 @@ void add_options(OptionTable& cli, SpeakOptions& options) {
           "with a lower confidence, 0 to 1; 0: accept any transcript")
       ->between(0.0, 1.0);
   cli.add("--json", options.json, "Print a machine-readable summary");
+  cli.add("--report", options.report, "Also write what --json prints to a file")
+      ->output(".json", OutputKind::file);
   cli.show_in_help_all(
       "Details of coding and alignment",
       "--rms --kbps --default-ranges --intra-seconds --audio-codec "
       "--audio-bitrate --exact --min-confidence "
-      "--no-tongue --visemes --expressions --look --still --seed --keep --bend --fit");
+      "--no-tongue --visemes --expressions --look --still --seed --keep --bend --fit --report");
 }
 
 }  // namespace

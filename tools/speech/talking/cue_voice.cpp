@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "tools/formats/media/stretch.h"
+
 namespace animeme::speech {
 namespace {
 
@@ -13,6 +15,7 @@ constexpr double kGapOfCues = 0.04;            // seconds
 constexpr double kFitSlack = 0.01;             // seconds that nobody hears
 constexpr int kFitAttempts = 4;                // to meet a length by the speed
 constexpr double kLongestFitted = 86400;
+constexpr double kEarly = 0.15, kLate = 0.1;  // seconds by which a recorded cue may be off
 
 // UTF-8.
 std::size_t characters_of(const std::string& text) {
@@ -64,40 +67,54 @@ double shorten_pauses(voice::Speech& speech, double wanted) {
   return taken;
 }
 
+// All of a speech faster, at its pitch.
+void hasten(voice::Speech& speech, double more) {
+  voice::Speech part =
+      stretched_part(speech.audio, speech.script, 0, speech.audio.duration(), more);
+  speech.audio = std::move(part.audio);
+  speech.script = std::move(part.script);
+  for (dam::MoodSpan& span : speech.moods) span.start /= more, span.end /= more;
+  for (voice::SpokenLanguage& one : speech.languages) one.start /= more, one.end /= more;
+}
+
 // Speech of a cue, as near to `wanted` seconds as the range allows.
-Result<voice::Speech> speak_within(const std::string& text, double wanted,
-                                   const SpeakAtSpeed& speak, const FitRange& range,
-                                   FittedCue& fitted) {
-  Result<voice::Speech> speech = speak(text, 1);
+Result<voice::Speech> speak_within(std::size_t cue, double wanted, const SpeakAtSpeed& speak,
+                                   const FitRange& range, FittedCue& fitted) {
+  Result<voice::Speech> speech = speak(cue, 1);
   if (!speech) return speech;
   double speed = 1;
-  for (int attempt = 0; attempt < kFitAttempts; ++attempt) {
+  for (int attempt = 0;; ++attempt) {
     const double seconds = speech->audio.duration();
     voice::Speech shorter = *speech;
     const double taken = shorten_pauses(shorter, seconds - wanted);
     const double left = seconds - taken;
     const bool slow = left < wanted - kFitSlack && speed > range.slowest;
     const bool fast = left > wanted + kFitSlack && speed < range.fastest;
-    if ((!slow && !fast) || attempt + 1 == kFitAttempts || !(wanted > 0)) {
-      fitted.speed = speed;
-      fitted.shortened = taken;
-      return shorter;
+    bool ended = (!slow && !fast) || attempt + 1 == kFitAttempts || !(wanted > 0);
+    if (!ended) {
+      // A voice that is asked for twice the speed need not be twice as fast: again from what it
+      // was.
+      const double next = std::clamp(speed * left / wanted, range.slowest, range.fastest);
+      Result<voice::Speech> other = speak(cue, next);
+      if (!other) return other;
+      ended = std::abs(other->audio.duration() - seconds) < 1e-6;  // it cannot
+      if (!ended) {
+        speech = std::move(other);
+        speed = next;
+        continue;
+      }
     }
-    // A voice that is asked for twice the speed need not be twice as fast: again from what it was.
-    const double next = std::clamp(speed * left / wanted, range.slowest, range.fastest);
-    Result<voice::Speech> other = speak(text, next);
-    if (!other) return other;
-    const bool same = std::abs(other->audio.duration() - seconds) < 1e-6;
-    speech = std::move(other);
-    speed = next;
-    if (same) {  // this voice has one speed
-      speed = 1;
-      fitted.speed = 1;
-      fitted.shortened = shorten_pauses(*speech, speech->audio.duration() - wanted);
-      return speech;
+    fitted.speed = speed;
+    fitted.shortened = taken;
+    // Voices round their speed, or have one alone: what is missing is stretched.
+    if (fast && wanted > 0) {
+      const double more = std::min(left / wanted, range.fastest / speed);
+      hasten(shorter, more);
+      fitted.speed = speed * more;
+      fitted.shortened = taken / more;
     }
+    return shorter;
   }
-  return speech;
 }
 
 // Appends a speech that begins at `start` seconds.
@@ -188,13 +205,18 @@ Result<FittedSpeech> fit_cues(const std::vector<Cue>& cues, const SpeakAtSpeed& 
     double end = cues[i].end;
     if (i + 1 < cues.size()) end = std::min(end, cues[i + 1].start - kGapOfCues);
     const double wanted = std::max(0.0, end - fitted.start);
-    Result<voice::Speech> speech = speak_within(cues[i].text, wanted, speak, range, fitted);
+    Result<voice::Speech> speech = speak_within(i, wanted, speak, range, fitted);
     if (!speech) {
       Error error = std::move(speech).error();
       error.message = "subtitle " + std::to_string(i + 1) + ": " + error.message;
       return error;
     }
-    if (i == 0) all.speech.audio.sample_rate = speech->audio.sample_rate;
+    if (i == 0) {
+      all.speech.audio.sample_rate = speech->audio.sample_rate;
+      // At once: what grows by itself takes up to three times as much.
+      const double longest = cues.back().end + 1;
+      all.speech.audio.samples.reserve(std::size_t(longest * speech->audio.sample_rate));
+    }
     fitted.seconds = speech->audio.duration();
     fitted.late = std::max(0.0, fitted.start + fitted.seconds - cues[i].end);
     if (fitted.seconds > wanted + 2 * kFitSlack && fitted.seconds > 0) {
@@ -208,6 +230,101 @@ Result<FittedSpeech> fit_cues(const std::vector<Cue>& cues, const SpeakAtSpeed& 
     all.cues.push_back(std::move(fitted));
   }
   return all;
+}
+
+voice::Speech stretched_part(const media::Pcm& audio, const dam::Script& script, double start,
+                             double end, double speed) {
+  voice::Speech part;
+  part.audio.sample_rate = audio.sample_rate;
+  const double rate = audio.sample_rate;
+  const auto place = [&](double seconds) {
+    return std::min(std::size_t(std::llround(std::max(0.0, seconds) * rate)), audio.samples.size());
+  };
+  const std::size_t first = place(start), last = std::max(first, place(end));
+  const std::span<const float> samples(audio.samples.data() + first, last - first);
+  if (speed == 1) {
+    part.audio.samples.assign(samples.begin(), samples.end());
+  } else {
+    media::TimeStretch stretch(audio.sample_rate, 1, speed);
+    stretch.push(samples, part.audio.samples);
+    stretch.finish(part.audio.samples);
+  }
+  const double begin = double(first) / rate, stop = double(last) / rate;
+  for (const dam::Phone& phone : script.phones) {
+    if (phone.end <= begin || phone.start >= stop) continue;
+    dam::Phone moved = phone;
+    moved.start = (std::max(phone.start, begin) - begin) / speed;
+    moved.end = (std::min(phone.end, stop) - begin) / speed;
+    if (moved.end > moved.start) part.script.phones.push_back(std::move(moved));
+  }
+  return part;
+}
+
+std::vector<RecordedCue> find_cues(std::span<const std::string> texts,
+                                   std::span<const voice::AlignedWord> words) {
+  std::vector<RecordedCue> found(texts.size());
+  std::vector<std::size_t> said(texts.size());
+  std::size_t cue = 0, from = 0;
+  for (const voice::AlignedWord& word : words) {
+    for (std::size_t i = cue; i < texts.size(); ++i) {
+      const std::size_t at = texts[i].find(word.text, i == cue ? from : 0);
+      if (at == std::string::npos) continue;
+      cue = i;
+      from = at + word.text.size();
+      break;
+    }
+    if (!word.said || cue >= texts.size() || !(word.end > word.start)) continue;
+    RecordedCue& one = found[cue];
+    const double before = one.confidence.value_or(0) * double(said[cue]);
+    if (said[cue]++ == 0) one.start = word.start;
+    one.end = std::max(one.end, word.end);
+    one.confidence = (before + word.confidence) / double(said[cue]);
+  }
+  return found;
+}
+
+Result<FittedRecording> fit_recording(const std::vector<Cue>& cues,
+                                      std::span<const RecordedCue> said, const media::Pcm& audio,
+                                      const dam::Script& script, const FitRange& range) {
+  if (auto ok = check_cues(cues, range); !ok) return ok.error();
+  if (said.size() != cues.size()) {
+    return make_error(Code::invalid_argument, "each subtitle has one place in the recording");
+  }
+  FittedRecording result;
+  bool stays = true;
+  std::vector<Cue> places = cues;
+  for (std::size_t i = 0; i < cues.size(); ++i) {
+    const bool silent = !(said[i].end > said[i].start);
+    const bool in_time =
+        silent || (said[i].start >= cues[i].start - kEarly && said[i].end <= cues[i].end + kLate);
+    stays = stays && in_time;
+    FittedCue one{cues[i]};
+    one.start = silent ? cues[i].start : said[i].start;
+    one.seconds = said[i].end - said[i].start;
+    one.confidence = said[i].confidence;
+    result.cues.push_back(std::move(one));
+    if (in_time && !silent) {
+      places[i].start = i == 0 ? said[i].start : std::max(said[i].start, places[i - 1].start);
+      places[i].end = std::max({cues[i].end, said[i].end, places[i].start + kGapOfCues});
+    } else if (i > 0) {
+      places[i].start = std::max(places[i].start, places[i - 1].start);
+    }
+  }
+  if (stays) return result;
+  const auto speak = [&](std::size_t cue, double speed) -> Result<voice::Speech> {
+    return stretched_part(audio, script, said[cue].start, said[cue].end, speed);
+  };
+  auto fitted = fit_cues(places, speak, {1, range.fastest});
+  if (!fitted) return fitted.error();
+  for (std::size_t i = 0; i < cues.size(); ++i) {
+    FittedCue& one = fitted->cues[i];
+    one.cue = cues[i];
+    one.confidence = said[i].confidence;
+    one.late = one.cut > 0 ? std::max(one.late, one.start + one.seconds - cues[i].end) : one.late;
+  }
+  result.cues = std::move(fitted->cues);
+  result.speech = std::move(fitted->speech);
+  return result;
 }
 
 Result<std::vector<Cue>> cues_of(const dam::Timings& timings) {

@@ -75,39 +75,67 @@ Result<Spoken> follow_script(const SpokenOptions& options, const tools::Log& log
   return spoken;
 }
 
-// One cue of subtitles, without silence around it.
-Result<voice::Speech> speak_cue(const SpokenOptions& options, const std::string& written,
-                                double speed, const tools::Log& log) {
-  const std::string text = text_to_say(written, options.script_reading.speak_marks, log);
-  if (!options.tts.empty()) {
-    Result<TimedSpeech> timed = run_voice_command(text, voice_command(options), log);
-    if (!timed) return timed.error();
-    return std::move(timed->speech);
-  }
-  voice::VoiceOptions settings;
-  settings.language = options.language;
-  settings.words_per_minute =
-      std::clamp(int(std::lround(options.words_per_minute * speed)), 80, 450);
-  settings.pitch = options.pitch;
-  settings.lead_silence = settings.tail_silence = 0;
-  return voice::speak_text(text, settings);
-}
+// Speaks cues without silence around them. A TTS command speaks each once, at its own speed.
+class CueSpeaker {
+ public:
+  CueSpeaker(const SpokenOptions& options, const tools::Log& log) : options_(options), log_(log) {}
 
-Result<Spoken> speak_cues(const SpokenOptions& options, const tools::Log& log) {
-  tools::AtStep step(tools::Step::voice);
+  Result<voice::Speech> operator()(std::size_t cue, const std::string& written, double speed) {
+    const std::string text = text_to_say(written, options_.script_reading.speak_marks, log_);
+    if (!options_.tts.empty()) return by_command(cue, text, speed);
+    voice::VoiceOptions settings;
+    settings.language = options_.language;
+    settings.words_per_minute =
+        std::clamp(int(std::lround(options_.words_per_minute * speed)), 80, 450);
+    settings.pitch = options_.pitch;
+    settings.lead_silence = settings.tail_silence = 0;
+    return voice::speak_text(text, settings);
+  }
+
+ private:
+  Result<voice::Speech> by_command(std::size_t cue, const std::string& text, double speed) {
+    if (cue_ != cue) {
+      VoiceCommand command = voice_command(options_);
+      command.input.reading = {};  // that of the subtitles
+      Result<TimedSpeech> timed = run_voice_command(text, command, log_);
+      if (!timed) return timed.error();
+      spoken_ = std::move(timed->speech);
+      cue_ = cue;
+    }
+    double start = 0, end = spoken_.audio.duration();
+    const std::vector<dam::Phone>& phones = spoken_.script.phones;
+    if (phones.size() > 2 && phones.front().label == dam::kSilence) start = phones.front().end;
+    if (phones.size() > 2 && phones.back().label == dam::kSilence) end = phones.back().start;
+    voice::Speech part = stretched_part(spoken_.audio, spoken_.script, start, end, speed);
+    part.voice = spoken_.voice;
+    for (dam::MoodSpan span : spoken_.moods) {
+      span.start = std::max(0.0, span.start - start) / speed;
+      span.end = std::max(0.0, span.end - start) / speed;
+      part.moods.push_back(std::move(span));
+    }
+    return part;
+  }
+
+  const SpokenOptions& options_;
+  const tools::Log& log_;
+  voice::Speech spoken_;            // by the command
+  std::optional<std::size_t> cue_;  // which it is
+};
+
+Result<std::vector<Cue>> read_cues(const SpokenOptions& options) {
   const Result<std::string> text = tools::read_text_file(options.script);
   if (!text) return text.error();
   const auto timings = scripts::read_labels(*text, options.script_reading);
   if (!timings) return timings.error().in_file(options.script);
-  const auto cues = cues_of(*timings);
+  auto cues = cues_of(*timings);
   if (!cues) return cues.error().in_file(options.script);
-  const auto say = [&](const std::string& words, double speed) {
-    return speak_cue(options, words, speed, log);
-  };
-  Result<FittedSpeech> fitted = fit_cues(*cues, say, *options.fit);
-  if (!fitted) return fitted.error().in_file(options.script);
-  for (std::size_t i = 0; i < fitted->cues.size(); ++i) {
-    const FittedCue& cue = fitted->cues[i];
+  return cues;
+}
+
+void tell_of_long_cues(const std::vector<FittedCue>& cues, const SpokenOptions& options,
+                       const tools::Log& log) {
+  for (std::size_t i = 0; i < cues.size(); ++i) {
+    const FittedCue& cue = cues[i];
     if (cue.cut == 0) continue;
     char told[160];
     std::snprintf(told, sizeof told,
@@ -115,14 +143,31 @@ Result<Spoken> speak_cues(const SpokenOptions& options, const tools::Log& log) {
                   cue.cue.start, cue.late, cue.cut);
     log.warn(options.script + told);
   }
-  voice::Speech& speech = fitted->speech;
-  // Time to close the mouth.
+}
+
+// Time to close the mouth.
+void end_silently(voice::Speech& speech) {
   constexpr double kTail = 0.4;
   const double end = speech.audio.duration();
   speech.audio.samples.resize(speech.audio.samples.size() +
                               std::size_t(kTail * speech.audio.sample_rate));
   speech.script.phones.push_back(
       {std::max(end, speech.script.duration()), end + kTail, std::string(dam::kSilence), {}});
+}
+
+Result<Spoken> speak_cues(const SpokenOptions& options, const tools::Log& log) {
+  tools::AtStep step(tools::Step::voice);
+  const auto cues = read_cues(options);
+  if (!cues) return cues.error();
+  CueSpeaker speaker(options, log);
+  const auto say = [&](std::size_t cue, double speed) {
+    return speaker(cue, (*cues)[cue].text, speed);
+  };
+  Result<FittedSpeech> fitted = fit_cues(*cues, say, *options.fit);
+  if (!fitted) return fitted.error().in_file(options.script);
+  tell_of_long_cues(fitted->cues, options, log);
+  voice::Speech& speech = fitted->speech;
+  end_silently(speech);
   step.made(2 * speech.audio.samples.size());
   Spoken spoken{
       std::move(speech.script), std::move(speech.audio), speech.voice, TimesFrom::voice, {}, {}};
@@ -148,6 +193,46 @@ Result<Spoken> align_voice(const SpokenOptions& options, const tools::Log& log) 
                 TimesFrom::alignment, std::move(*aligned), {}};
   spoken.moods = text::find_moods(text, spoken.script);
   spoken.recording = again(options.audio);
+  return spoken;
+}
+
+// A recording of what subtitles say.
+Result<Spoken> fit_recorded(const SpokenOptions& options, const tools::Log& log) {
+  const auto cues = read_cues(options);
+  if (!cues) return cues.error();
+  SpokenOptions aligning = options;
+  aligning.transcript.clear();
+  std::vector<std::string> texts;
+  for (const Cue& cue : *cues) {
+    texts.push_back(text_to_say(cue.text, options.script_reading.speak_marks, log));
+    aligning.transcript += (aligning.transcript.empty() ? "" : "\n") + texts.back();
+  }
+  Result<Spoken> spoken = align_voice(aligning, log);
+  if (!spoken) return spoken;
+  const std::vector<RecordedCue> said = find_cues(texts, spoken->alignment->words);
+  auto fitted = fit_recording(*cues, said, *spoken->audio, spoken->script, *options.fit);
+  if (!fitted) return fitted.error().in_file(options.script);
+  spoken->cues = std::move(fitted->cues);
+  tell_of_long_cues(spoken->cues, options, log);
+  if (!fitted->speech) return spoken;
+  end_silently(*fitted->speech);
+  spoken->script = std::move(fitted->speech->script);
+  spoken->audio = std::move(fitted->speech->audio);
+  spoken->moods = text::find_moods(aligning.transcript, spoken->script);
+  spoken->recording.clear();
+  // Words go with their cues; phones that were cut at its ends have no number of their own.
+  for (voice::AlignedWord& word : spoken->alignment->words) {
+    for (std::size_t i = 0; i < said.size(); ++i) {
+      const double length = said[i].end - said[i].start;
+      if (!(length > 0) || word.start < said[i].start || word.end > said[i].end) continue;
+      const FittedCue& cue = spoken->cues[i];
+      const double scale = cue.seconds / length;
+      word.start = cue.start + (word.start - said[i].start) * scale;
+      word.end = cue.start + (word.end - said[i].start) * scale;
+      break;
+    }
+  }
+  spoken->alignment->confidences.clear();
   return spoken;
 }
 
@@ -238,7 +323,9 @@ Result<Spoken> get_spoken(const SpokenOptions& options, const tools::Log& log) {
     return spoken;
   }
   if (options.has_text) return speak(options, options.text, log);
-  if (!options.script.empty() && options.fit) return speak_cues(options, log);
+  if (!options.script.empty() && options.fit) {
+    return options.audio.empty() ? speak_cues(options, log) : fit_recorded(options, log);
+  }
   if (!options.script.empty()) return follow_script(options, log);
   if (options.listen && !options.has_transcript) return hear_voice(options, log);
   return align_voice(options, log);

@@ -46,7 +46,9 @@ struct SpokenOptions {
   int pitch = 50;                      ///< of a synthetic voice, 0 to 100
   double most_seconds = kMostSeconds;  ///< longest script
   /// A script of subtitles is spoken by a voice, each cue in its time (cue_voice.h), within this
-  /// range of speed. A TTS command has one speed. nullopt: the script has its sound elsewhere.
+  /// range of speed. The sound of a TTS command is stretched at its pitch. With `audio` the
+  /// subtitles are what it says: it is aligned with them, and put into their times if it is
+  /// elsewhere (fit_recording()). nullopt: the script has its sound elsewhere.
   std::optional<FitRange> fit = std::nullopt;
 };
 
