@@ -218,8 +218,10 @@ TEST(TrackLabels, AreParsed) {
   EXPECT_EQ(parse_track_labels("lang=de").value(), labels("de", ""));
   EXPECT_EQ(parse_track_labels("speaker=Ann Lee,lang=pt-BR").value(),
             labels("pt-BR", "", "Ann Lee"));
+  EXPECT_EQ(parse_track_labels("speaker=Lee\\, Ann\\\\x\\y,lang=fr").value(),
+            labels("fr", "", "Lee, Ann\\x\\y"));
   for (const char* wrong : {"", "de", "lang=", "lang=d", "lang=de-", "lang=de_AT", "language=de",
-                            "lang=de,,speaker=A", "speaker="}) {
+                            "lang=de,,speaker=A", "speaker=", "lang=de,", ",", ",lang=de", ",,"}) {
     EXPECT_EQ(parse_track_labels(wrong).error().code, Code::invalid_argument) << wrong;
   }
 }

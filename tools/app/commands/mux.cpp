@@ -173,11 +173,11 @@ struct MuxTrack {
 
 Result<MuxTrack> read_mux_track(const std::string& text) {
   MuxTrack track;
-  std::string labels, rest = text;
+  std::string labels;
+  std::string_view rest = text;
   while (!rest.empty()) {
-    const std::size_t comma = std::min(rest.find(','), rest.size());
-    const std::string one = rest.substr(0, comma);
-    rest.erase(0, comma + 1);
+    const std::string_view before = rest;
+    const std::string one = media::next_label(rest);
     const std::size_t equals = one.find('=');
     const std::string name = one.substr(0, equals);
     std::string* place = name == "face"    ? &track.face
@@ -185,7 +185,10 @@ Result<MuxTrack> read_mux_track(const std::string& text) {
                          : name == "words" ? &track.words
                                            : nullptr;
     if (place == nullptr) {
-      labels += (labels.empty() ? "" : ",") + one;
+      // As it is written, with its backslashes.
+      std::string_view part = before.substr(0, before.size() - rest.size());
+      if (!rest.empty() && part.ends_with(',')) part.remove_suffix(1);
+      labels += (labels.empty() ? "" : ",") + std::string(part);
     } else if (equals == std::string::npos || equals + 1 == one.size() || !place->empty()) {
       return make_error(Code::invalid_argument,
                         "'" + one + "' needs one file behind " + name + "=");
@@ -315,11 +318,11 @@ void add_options(OptionTable& cli, MuxOptions& options) {
           "segments beside it")
       ->output("")
       ->required();
-  cli.add(
-         "--track", options.tracks,
-         "A language or a person of a file with several, in place of the arguments, separated by "
-         "commas: lang=de and speaker=Ann, then face=de.fba, audio=de.wav and words=de.vtt; may be "
-         "repeated, the first is the default (.mp4 .mkv .m3u8 .mpd)")
+  cli.add("--track", options.tracks,
+          "A language or a person of a file with several, in place of the arguments, separated by "
+          "commas: lang=de and speaker=Ann, then face=de.fba, audio=de.wav and words=de.vtt (a "
+          "comma "
+          "in a name is \\,); may be repeated, the first is the default (.mp4 .mkv .m3u8 .mpd)")
       ->value("LABELS,FILES")
       ->check(problem_of<read_mux_track>)
       ->one_at_a_time();

@@ -45,6 +45,21 @@ bool is_language_tag(std::string_view tag) {
   return true;
 }
 
+std::string next_label(std::string_view& rest) {
+  std::string part;
+  std::size_t at = 0;
+  for (; at < rest.size() && rest[at] != ','; ++at) {
+    const bool escape =
+        rest[at] == '\\' && at + 1 < rest.size() && (rest[at + 1] == ',' || rest[at + 1] == '\\');
+    if (escape) ++at;
+    part += rest[at];
+  }
+  // A comma at the end stays, so that there is an empty part behind it.
+  const bool last = at > 0 && at + 1 == rest.size();
+  rest.remove_prefix(last ? at : std::min(at + 1, rest.size()));
+  return part;
+}
+
 Result<TrackLabels> parse_track_labels(std::string_view text) {
   TrackLabels labels;
   const auto wrong = [&](const std::string& why) {
@@ -53,11 +68,11 @@ Result<TrackLabels> parse_track_labels(std::string_view text) {
   };
   std::string_view rest = text;
   while (true) {
-    const std::string_view one = rest.substr(0, rest.find(','));
+    const std::string one = next_label(rest);
     const std::size_t equals = one.find('=');
-    const std::string name(one.substr(0, equals));
-    const std::string value(equals == std::string_view::npos ? "" : one.substr(equals + 1));
-    if (value.empty()) return wrong("'" + std::string(one) + "' is no label of a track");
+    const std::string name = one.substr(0, equals);
+    const std::string value = equals == std::string::npos ? "" : one.substr(equals + 1);
+    if (value.empty()) return wrong("'" + one + "' is no label of a track");
     if (name == "lang") {
       if (!is_language_tag(value)) return wrong("'" + value + "' is no language tag");
       labels.language = value;
@@ -67,8 +82,7 @@ Result<TrackLabels> parse_track_labels(std::string_view text) {
     } else {
       return wrong("'" + name + "' is no label of a track");
     }
-    if (one.size() == rest.size()) return labels;
-    rest.remove_prefix(one.size() + 1);
+    if (rest.empty()) return labels;
   }
 }
 

@@ -26,6 +26,10 @@ struct TrackLabels {
   friend bool operator==(const TrackLabels&, const TrackLabels&) = default;
 };
 
+/// Cuts the first part of a list at its comma and takes it from `rest`. A comma or a backslash of a
+/// name is behind a backslash: "speaker=Smith\, Ann".
+std::string next_label(std::string_view& rest);
+
 /// Reads "lang=de,speaker=Ann", both or one of them; `code` stays empty. Errors: invalid_argument
 /// (another word, an empty value, a language that is no tag).
 Result<TrackLabels> parse_track_labels(std::string_view text);
