@@ -328,8 +328,8 @@ class Run {
 Result<Ending> run_batch(const Settings& given, const Watch& watch) {
   Settings settings = given;
   const std::string out = settings.shared.out;
-  Result<Manifest> manifest =
-      Manifest::open(settings.manifest, settings.form, settings.defaults, settings.allow_commands);
+  Result<Manifest> manifest = Manifest::open(settings.manifest, settings.form, settings.defaults,
+                                             settings.allow_commands, settings.dialect);
   if (!manifest) return manifest.error();
   std::vector<std::string> problems;
   Result<std::uint64_t> rows = check_manifest(*manifest, settings.shard, settings.shards, problems);
@@ -377,7 +377,7 @@ Result<Ending> run_batch(const Settings& given, const Watch& watch) {
   const std::string staged_report = settings.shared.stage + "/" + report;
   Result<Totals> totals = put_in_order(*manifest, index_of, staged, staged_report);
   if (!totals) return totals.error();
-  fs::rename(staged_report, out + "/" + report, failed);
+  if (settings.report) fs::rename(staged_report, out + "/" + report, failed);
   if (!failed) fs::rename(staged, path, failed);
   if (failed) {
     return make_error(Code::io, "cannot be written: " + failed.message()).in_file(path);

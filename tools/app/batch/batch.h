@@ -25,6 +25,8 @@ struct Settings {
   std::size_t jobs = 1;                                       ///< workers
   bool resume = false;                                        ///< skip finished rows
   bool allow_commands = false;                                ///< rows may name programs to run
+  Dialect dialect;                                            ///< of the manifest
+  bool report = true;                                         ///< write report.html
   int shard = 1;                                              ///< from 1
   int shards = 1;                                             ///< number of shards
 };

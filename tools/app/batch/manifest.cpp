@@ -18,26 +18,15 @@ namespace {
 constexpr std::size_t kMostLine = 1 << 20;
 constexpr std::size_t kMostId = 200;  // a name of 255 bytes with an ending
 
-bool is_column(std::string_view name) {
-  return std::find(kColumns.begin(), kColumns.end(), name) != kColumns.end();
-}
-
-// "language" is what many tables call it.
-std::string column_named(std::string name) { return name == "language" ? "lang" : name; }
-
-std::string all_columns() {
-  std::string text;
-  for (const std::string_view name : kColumns)
-    text += (text.empty() ? "" : ", ") + std::string(name);
-  return text;
+// What many tables call it.
+std::string column_named(std::string name) {
+  if (name == "language") return "lang";
+  if (name == "subtitles") return "script";
+  return name == "performance" ? "over" : name;
 }
 
 Error bad(std::string message, std::int64_t line, std::int64_t column = 0) {
   return error_at_line(Code::syntax, std::move(message), line, column);
-}
-
-Error unknown_column(const std::string& name, std::int64_t line, std::int64_t column) {
-  return bad("there is no column \"" + name + "\"; columns are " + all_columns(), line, column);
 }
 
 bool is_blank(std::string_view text) {
@@ -98,21 +87,34 @@ void Row::fill(std::string_view column, const std::string& value) {
 
 Form form_of(const std::string& path) {
   const std::string ending = tools::extension_of(path);
+  if (ending == ".csv") return Form::csv;
   if (ending == ".jsonl" || ending == ".json" || ending == ".ndjson") return Form::json;
   return ending == ".txt" || ending == ".lst" ? Form::list : Form::table;
 }
 
+bool Manifest::is_column(std::string_view name) const {
+  const std::span<const std::string_view> all =
+      dialect_.columns.empty() ? std::span<const std::string_view>(kColumns) : dialect_.columns;
+  return std::find(all.begin(), all.end(), name) != all.end();
+}
+
+Error Manifest::unknown_column(const std::string& name, std::int64_t line,
+                               std::int64_t column) const {
+  std::string all;
+  for (const std::string_view one :
+       dialect_.columns.empty() ? std::span<const std::string_view>(kColumns) : dialect_.columns)
+    all += (all.empty() ? "" : ", ") + std::string(one);
+  return bad("there is no column \"" + name + "\"; columns are " + all, line, column);
+}
+
 Result<Manifest> Manifest::open(const std::string& path, Form form,
                                 std::vector<std::pair<std::string, std::string>> defaults,
-                                bool allow_commands) {
+                                bool allow_commands, const Dialect& dialect) {
   Manifest manifest;
   manifest.allow_commands_ = allow_commands;
+  manifest.dialect_ = dialect;
   manifest.name_ = path == "-" ? "standard input" : path;
   manifest.form_ = form;
-  manifest.defaults_ = std::move(defaults);
-  for (const auto& [column, value] : manifest.defaults_) {
-    if (!is_column(column)) return unknown_column(column, 0, 0);
-  }
   std::error_code unknown;
   if (std::filesystem::is_directory(path, unknown)) {
     return make_error(Code::io, "this is a folder; give a file with one row per clip")
@@ -132,15 +134,39 @@ Result<Manifest> Manifest::open(const std::string& path, Form form,
       }
     }
   }
-  if (auto begun = manifest.rewind(); !begun) return begun.error();
+  if (auto begun = manifest.begin(std::move(defaults)); !begun) return begun.error();
   return manifest;
+}
+
+Result<Manifest> Manifest::of_text(std::string_view text, Form form, bool allow_commands) {
+  Manifest manifest;
+  manifest.allow_commands_ = allow_commands;
+  manifest.name_ = "text";
+  manifest.form_ = form;
+  // An empty one cannot be opened.
+  manifest.file_.reset(text.empty() ? std::tmpfile()
+                                    : ::fmemopen(const_cast<char*>(text.data()), text.size(), "r"));
+  if (!manifest.file_) return make_error(Code::io, std::strerror(errno)).in_file(manifest.name_);
+  if (auto begun = manifest.begin({}); !begun) return begun.error();
+  return manifest;
+}
+
+Result<void> Manifest::begin(std::vector<std::pair<std::string, std::string>> defaults) {
+  defaults_ = std::move(defaults);
+  for (auto& [column, value] : defaults_) {
+    column = column_named(column);
+    if (!is_column(column)) return unknown_column(column, 0, 0);
+  }
+  return rewind();
 }
 
 Result<void> Manifest::rewind() {
   std::rewind(file_.get());
-  line_ = 0;
+  line_ = first_ = 0;
   header_.clear();
-  return form_ == Form::table ? read_header() : Result<void>();
+  begun_ = in_list_ = ended_ = false;
+  between_ = '\t';
+  return form_ == Form::table || form_ == Form::csv ? read_header() : Result<void>();
 }
 
 Result<bool> Manifest::read_line(std::string& line) {
@@ -168,23 +194,128 @@ Result<bool> Manifest::read_line(std::string& line) {
   return true;
 }
 
+// A line of a table, or the lines of one whose quotes end in a later one.
+Result<bool> Manifest::read_record(std::string& text) {
+  Result<bool> got = read_line(text);
+  first_ = line_;
+  if (!got || !*got || form_ != Form::csv) return got;
+  const auto open = [&] { return std::count(text.begin(), text.end(), '"') % 2 != 0; };
+  std::string more;
+  while (open()) {
+    got = read_line(more);
+    if (!got) return got;
+    if (!*got) return bad("a quote that does not end", first_).in_file(name_);
+    text += "\n" + more;
+    if (text.size() > kMostLine) return bad("the row is longer than 1 MB", first_).in_file(name_);
+  }
+  return true;
+}
+
+// A line, or the next object of a list.
+Result<bool> Manifest::read_object(std::string& text) {
+  text.clear();
+  if (ended_) return false;
+  if (!in_list_) {
+    const Result<bool> got = read_line(text);
+    first_ = line_;
+    const std::size_t at = text.find_first_not_of(" \t");
+    if (!got || !*got || begun_ || at == std::string::npos) return got;
+    begun_ = true;
+    if (text[at] != '[') return got;
+    std::rewind(file_.get());
+    line_ = 1;
+    for (int c = 0; (c = ::getc_unlocked(file_.get())) != '[' && c != EOF;) line_ += c == '\n';
+    in_list_ = true;
+  }
+  text.clear();
+  // From here on a place is lost with the first error.
+  const auto broken = [&](const char* what) -> Result<bool> {
+    ended_ = true;
+    return bad(what, line_).in_file(name_);
+  };
+  int depth = 0, c = 0;
+  bool quoted = false, escaped = false;
+  while ((c = ::getc_unlocked(file_.get())) != EOF) {
+    if (c == '\n') ++line_;
+    if (depth == 0) {
+      if (c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == ',') continue;
+      if (c == ']') {
+        ended_ = true;
+        return false;
+      }
+      if (c != '{') return broken("the list has something that is no object");
+      first_ = line_;
+    }
+    if (text.size() >= kMostLine) return broken("the object is longer than 1 MB");
+    text += char(c);
+    if (quoted) {
+      quoted = escaped || c != '"';
+      escaped = !escaped && c == '\\';
+      continue;
+    }
+    if (c == '"') quoted = true;
+    if (c == '{' || c == '[') ++depth;
+    if (c == '}' || c == ']') --depth;
+    if (depth == 0) return true;
+  }
+  return broken("the list does not end");
+}
+
+namespace {
+
+// A field of a table, and where it begins.
+struct Field {
+  std::string text;
+  std::size_t at = 0;
+  bool good = true;  // false: something behind its quote
+};
+
+// The field that begins at `at`, which receives its end.
+Field field_at(std::string_view line, std::size_t& at, char between) {
+  Field field{{}, at, true};
+  if (between == '\t' || at >= line.size() || line[at] != '"') {
+    const std::size_t end = std::min(line.find(between, at), line.size());
+    field.text = line.substr(at, end - at);
+    at = end;
+    return field;
+  }
+  for (++at; at < line.size(); ++at) {
+    if (line[at] == '"') {
+      if (at + 1 >= line.size() || line[at + 1] != '"') break;
+      ++at;
+    }
+    field.text += line[at];
+  }
+  at = std::min(at + 1, line.size());
+  field.good = at == line.size() || line[at] == between;
+  at = std::min(line.find(between, at), line.size());
+  return field;
+}
+
+}  // namespace
+
 Result<void> Manifest::read_header() {
   std::string line;
-  const Result<bool> got = read_line(line);
+  const Result<bool> got = read_record(line);
   if (!got) return got.error();
   if (!*got) return make_error(Code::syntax, "the manifest is empty").in_file(name_);
+  if (form_ == Form::csv) {
+    const auto count = [&](char c) { return std::count(line.begin(), line.end(), c); };
+    between_ = count(';') > count(',') ? ';' : ',';
+  }
   for (std::size_t at = 0; at <= line.size();) {
-    const std::size_t end = std::min(line.find('\t', at), line.size());
-    const std::string name = column_named(line.substr(at, end - at));
-    const auto column = std::int64_t(at) + 1;
+    const Field field = field_at(line, at, between_);
+    const std::string name = column_named(field.text);
+    const auto column = std::int64_t(field.at) + 1;
     if (!is_column(name)) return unknown_column(name, line_, column).in_file(name_);
     if (std::find(header_.begin(), header_.end(), name) != header_.end()) {
       return bad("column \"" + name + "\" is there twice", line_, column).in_file(name_);
     }
     header_.push_back(name);
-    at = end + 1;
+    ++at;
   }
-  if (std::find(header_.begin(), header_.end(), "id") == header_.end()) {
+  // A dialect may have other names for its rows.
+  if (!dialect_.to_row && std::find(header_.begin(), header_.end(), "id") == header_.end()) {
     return bad("there is no column \"id\"", line_).in_file(name_);
   }
   return {};
@@ -192,16 +323,18 @@ Result<void> Manifest::read_header() {
 
 Result<Row> Manifest::table_row(std::string_view text) const {
   Row row;
-  std::size_t field = 0;
-  for (std::size_t at = 0; at <= text.size(); ++field) {
-    const std::size_t end = std::min(text.find('\t', at), text.size());
-    if (field >= header_.size()) {
+  std::size_t number = 0;
+  for (std::size_t at = 0; at <= text.size(); ++number) {
+    Field field = field_at(text, at, between_);
+    const auto column = std::int64_t(field.at) + 1;
+    if (number >= header_.size()) {
       return bad(
           "more fields than the " + std::to_string(header_.size()) + " columns of the first line",
-          line_, std::int64_t(at) + 1);
+          first_, column);
     }
-    row.fill(header_[field], std::string(text.substr(at, end - at)));
-    at = end + 1;
+    if (!field.good) return bad("something stands behind a quote", first_, column);
+    row.fill(header_[number], field.text);
+    ++at;
   }
   return row;
 }
@@ -209,16 +342,16 @@ Result<Row> Manifest::table_row(std::string_view text) const {
 Result<Row> Manifest::json_row(std::string_view text) const {
   Row row;
   const Result<Json> json = Json::parse(text);
-  if (!json) return bad("this is no JSON object", line_, json.error().where.column);
-  if (!json->is_object()) return bad("this is no JSON object", line_, 1);
+  if (!json) return bad("this is no JSON object", first_, json.error().where.column);
+  if (!json->is_object()) return bad("this is no JSON object", first_, 1);
   for (const auto& [key, value] : json->items()) {
     const std::string name = column_named(key);
     if (!is_column(name)) {
-      return unknown_column(key, line_, std::int64_t(text.find("\"" + key + "\"")) + 1);
+      return unknown_column(key, first_, std::int64_t(text.find("\"" + key + "\"")) + 1);
     }
-    Result<std::string> one = json_value(value, line_, key);
+    Result<std::string> one = json_value(value, first_, key);
     if (!one) return one.error();
-    if (one->find('\0') != std::string::npos) return bad("a zero byte in \"" + key + "\"", line_);
+    if (one->find('\0') != std::string::npos) return bad("a zero byte in \"" + key + "\"", first_);
     row.fill(name, *one);
   }
   return row;
@@ -233,32 +366,41 @@ Result<Row> Manifest::list_row(std::string_view text) const {
 }
 
 Result<std::optional<Row>> Manifest::next() {
-  std::string line;
-  do {
-    const Result<bool> got = read_line(line);
-    if (!got) return got.error();
-    if (!*got) return std::optional<Row>();
-  } while (is_blank(line));
-  Result<Row> row = form_ == Form::table  ? table_row(line)
-                    : form_ == Form::json ? json_row(line)
-                                          : list_row(line);
-  if (!row) return row.error().in_file(name_);
-  row->line = line_;
-  if (const std::string column = column_with_command(*row); !allow_commands_ && !column.empty()) {
-    return bad("column " + column +
-                   " runs a program; if you trust the manifest add --allow-commands, or name the "
-                   "program on the command line: --set tts=\"COMMAND\"",
-               line_)
-        .in_file(name_);
+  for (;;) {
+    std::string text;
+    do {
+      const Result<bool> got = form_ == Form::json ? read_object(text) : read_record(text);
+      if (!got) return got.error();
+      if (!*got) return std::optional<Row>();
+    } while (is_blank(text));
+    Result<Row> row = form_ == Form::json   ? json_row(text)
+                      : form_ == Form::list ? list_row(text)
+                                            : table_row(text);
+    if (!row) return row.error().in_file(name_);
+    row->line = first_;
+    if (const std::string column = column_with_command(*row); !allow_commands_ && !column.empty()) {
+      return bad("column " + column +
+                     " runs a program; if you trust the manifest add --allow-commands, or name the "
+                     "program on the command line: --set tts=\"COMMAND\"",
+                 first_)
+          .in_file(name_);
+    }
+    for (const auto& [column, value] : defaults_) row->fill(column, value);
+    if (dialect_.to_row) {
+      const Result<bool> kept = dialect_.to_row(*row);
+      if (!kept) return bad(kept.error().message, first_).in_file(name_);
+      if (!*kept) continue;
+    }
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < header_.size() && header_[i] != "id"; ++i) {
+      static_cast<void>(field_at(text, at, between_));
+      at = std::min(at + 1, text.size());
+    }
+    if (const std::string problem = problem_of_id(row->at("id")); !problem.empty()) {
+      return bad(problem, first_, std::int64_t(at) + 1).in_file(name_);
+    }
+    return std::optional<Row>(std::move(*row));
   }
-  for (const auto& [column, value] : defaults_) row->fill(column, value);
-  std::size_t at = 0;
-  for (std::size_t i = 0; i < header_.size() && header_[i] != "id"; ++i)
-    at = line.find('\t', at) + 1;
-  if (const std::string problem = problem_of_id(row->at("id")); !problem.empty()) {
-    return bad(problem, line_, std::int64_t(at) + 1).in_file(name_);
-  }
-  return std::optional<Row>(std::move(*row));
 }
 
 std::string problem_of_id(std::string_view id) {

@@ -5,8 +5,10 @@
 #include <array>
 #include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -50,12 +52,20 @@ struct Row {
 /// Formats of a manifest.
 enum class Form : std::uint8_t {
   table,  ///< columns separated by tabs, names in the first line
-  json,   ///< one object per line
+  csv,    ///< the same by commas or semicolons, fields in quotes where needed (RFC 4180)
+  json,   ///< one object per line, or a list of objects
   list,   ///< one file path per line
 };
 
-/// The form of a manifest by its name: .jsonl or .json, .txt or .lst, else a table.
+/// The form of a manifest by its name: .jsonl or .json, .csv, .txt or .lst, else a table.
 Form form_of(const std::string& path);
+
+/// A table of another command, whose rows are turned into those of a batch.
+struct Dialect {
+  std::span<const std::string_view> columns;  ///< in place of kColumns; static storage
+  /// Makes a row of a batch of a row, with its id; false: leave it out. An error is one of syntax.
+  std::function<Result<bool>(Row&)> to_row;
+};
 
 /// Reads rows one by one. Lines may end with CR; a byte order mark is skipped, as are blank lines.
 class Manifest {
@@ -67,7 +77,9 @@ class Manifest {
   /// column id).
   static Result<Manifest> open(const std::string& path, Form form,
                                std::vector<std::pair<std::string, std::string>> defaults,
-                               bool allow_commands = false);
+                               bool allow_commands = false, const Dialect& dialect = {});
+  /// The same of a text in memory, which lives as long.
+  static Result<Manifest> of_text(std::string_view text, Form form, bool allow_commands = false);
   /// The next row; nullopt after the last. Errors: syntax (also of a row that names a program,
   /// unless these are allowed), for this row only; the next call continues.
   Result<std::optional<Row>> next();
@@ -79,8 +91,13 @@ class Manifest {
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
+  Result<void> begin(std::vector<std::pair<std::string, std::string>> defaults);
   Result<bool> read_line(std::string& line);
+  Result<bool> read_record(std::string& text);
+  Result<bool> read_object(std::string& text);
   Result<void> read_header();
+  bool is_column(std::string_view name) const;
+  Error unknown_column(const std::string& name, std::int64_t line, std::int64_t column) const;
   Result<Row> table_row(std::string_view text) const;
   Result<Row> json_row(std::string_view text) const;
   Result<Row> list_row(std::string_view text) const;
@@ -90,7 +107,13 @@ class Manifest {
   Form form_ = Form::table;
   std::vector<std::pair<std::string, std::string>> defaults_;
   std::vector<std::string> header_;
-  std::int64_t line_ = 0;
+  Dialect dialect_;
+  std::int64_t line_ = 0;   // the last one that was read
+  std::int64_t first_ = 0;  // of the row
+  char between_ = '\t';     // fields of a table
+  bool begun_ = false;      // JSON: something was read that is not blank
+  bool in_list_ = false;    // JSON: behind the bracket
+  bool ended_ = false;      // the list is over, or broken
   bool allow_commands_ = false;
 };
 

@@ -39,6 +39,8 @@ bool is_face(const std::string& ending) {
   return is_one_of(ending, {".mp4", ".mkv", ".ts", ".fba", ".fap"});
 }
 
+std::string last_of(const std::string& ending) { return tools::extension_of("x" + ending); }
+
 std::string usual_command(const std::string& ending, bool speech) {
   if (is_script(ending)) return "align";
   if (is_one_of(ending, {".png", ".jpg", ".jpeg", ".webp", ".webm"})) return "render";
@@ -62,15 +64,16 @@ Result<Wanted> read_wanted(const std::string& text, bool speech) {
   wanted.ending = text.substr(colon < dot ? colon + 1 : 0);
   // People write fba and mp4, too.
   if (!wanted.ending.starts_with('.')) wanted.ending.insert(0, 1, '.');
-  const std::string last = tools::extension_of("x" + wanted.ending);
+  const std::string last = last_of(wanted.ending);
   if (wanted.ending.size() < 2 || last.empty() || wanted.ending.find('/') != std::string::npos) {
     return bad("output \"" + text + "\" is no ending: write .fba, or render:.video.mp4");
   }
   if (wanted.command.empty()) wanted.command = usual_command(last, speech);
-  if (wanted.command != "speak" && wanted.command != "align" && !shows_face(wanted.command)) {
-    return bad(
-        "no command makes the output \"" + text +
-        "\"; put speak:, align:, encode:, decode:, render:, export:, view: or plot: before it");
+  if (wanted.command != "speak" && wanted.command != "align" && wanted.command != "report" &&
+      !shows_face(wanted.command)) {
+    return bad("no command makes the output \"" + text +
+               "\"; put speak:, report:, align:, encode:, decode:, render:, export:, view: or "
+               "plot: before it");
   }
   return wanted;
 }
@@ -96,8 +99,8 @@ Result<void> add_options_of(const Row& row, const char* column, Plan& plan, Word
   if (!words) return words.error().in_file(column);
   for (const std::string& word : *words) {
     const std::string name = word.substr(0, word.find('='));
-    if (is_one_of(name,
-                  {"--output", "--save-script", "--preview", "--json", "--help", "--save-poses"}) ||
+    if (is_one_of(name, {"--output", "--save-script", "--preview", "--json", "--help",
+                         "--save-poses", "--report"}) ||
         (word.starts_with("-o") && !word.starts_with("--")) || word == "-h") {
       return bad("column " + std::string(column) + " has " + name +
                  ": what is written is named in column outputs");
@@ -199,11 +202,20 @@ Result<Plan> plan_row(const Row& row, const std::string& stage) {
       return bad("output \"speak:" + one.ending +
                  "\" needs speech: text, text_file, script or audio");
     if (auto added = speak(place(one.ending)); !added) return added.error();
-    if (face.empty() && is_face(tools::extension_of("x" + one.ending))) face = place(one.ending);
+    if (face.empty() && is_face(last_of(one.ending))) face = place(one.ending);
   }
   bool script = speaking.has_value();  // which it writes, too, once
   for (const Wanted& one : *wanted) {
     if (speaks(one)) continue;
+    if (one.command == "report") {
+      if (!speaking || last_of(one.ending) != ".json") {
+        return bad("output \"report:" + one.ending +
+                   "\" is the JSON of speak; it needs an output of it, such as .mp4, and ends in "
+                   ".json");
+      }
+      plan.lines[*speaking].insert(plan.lines[*speaking].end(), {"--report", place(one.ending)});
+      continue;
+    }
     if (one.command == "align" && script) {
       Words& line = plan.lines[*speaking];
       line.insert(line.end(), {"--save-script", place(one.ending)});

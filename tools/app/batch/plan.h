@@ -21,11 +21,11 @@ struct Plan {
 ///
 /// `outputs` are extensions separated by blanks, preceded by a command if it is not the default
 /// one: ".fba render:.video.mp4". speak makes .mp4 .mkv .ts .m3u8 .mpd .fba .fap .csv .json of
-/// speech, align the timed phones (.TextGrid .tsv .pho .vtt; together with a face speak does),
-/// render .png .jpg .webp .webm, export .glb .gltf .vrm, view .html, plot .svg; encode and decode
-/// work on `input`. Commands that show a face use the first face made by the row, or `input`; if
-/// there is none, a .mp4 is made for them. Errors, invalid_argument (an unknown output, no source
-/// for it, an output named in the options).
+/// speech, "report:.report.json" is what its --json prints, align makes the timed phones (.TextGrid
+/// .tsv .pho .vtt; together with a face speak does), render .png .jpg .webp .webm, export .glb
+/// .gltf .vrm, view .html, plot .svg; encode and decode work on `input`. Commands that show a face
+/// use the first face made by the row, or `input`; if there is none, a .mp4 is made for them.
+/// Errors, invalid_argument (an unknown output, no source for it, an output named in the options).
 Result<Plan> plan_row(const Row& row, const std::string& stage);
 
 }  // namespace animeme::batch

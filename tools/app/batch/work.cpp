@@ -152,7 +152,7 @@ void take_talk(const std::string& text, Entry& entry, std::string& error) {
 Result<void> run_line_of(const std::vector<std::string>& line, const Shared& shared,
                          const std::string& stage, Entry& entry) {
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-    if (line[i] != "-o" && line[i] != "--save-script") continue;
+    if (line[i] != "-o" && line[i] != "--save-script" && line[i] != "--report") continue;
     std::error_code ignored;
     fs::create_directories(fs::path(line[i + 1]).parent_path(), ignored);
   }

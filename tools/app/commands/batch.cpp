@@ -1,19 +1,12 @@
-#include <algorithm>
-#include <chrono>
 #include <cstdio>
-#include <thread>
 
 #include "tools/app/batch/batch.h"
+#include "tools/app/commands/batch_run.h"
 #include "tools/app/commands/common.h"
-#include "tools/app/commands/interrupt.h"
-#include "tools/app/commands/line.h"
 #include "tools/app/commands/shard.h"
 #include "tools/formats/common/json.h"
 #include "tools/formats/common/text.h"
 #include "tools/formats/programs/command_template.h"
-#include "tools/speech/talking/spoken.h"
-#include "tools/speech/voice/voice.h"
-#include "tools/view/studio/head_file.h"
 
 namespace animeme::tools {
 
@@ -26,49 +19,6 @@ struct BatchOptions {
   unsigned jobs = 0;
   bool check = false, join = false, json = false, profile = false;
 };
-
-std::string clock_text(double seconds) {
-  const auto whole = static_cast<long long>(std::max(seconds, 0.0) + 0.5);
-  return whole < 3600 ? format("%lld:%02lld", whole / 60, whole % 60)
-                      : format("%lld:%02lld:%02lld", whole / 3600, whole / 60 % 60, whole % 60);
-}
-
-class Shown {
- public:
-  void at(const batch::Standing& now) {
-    if (now.wanted == 0) return;
-    // Rows that are only checked are fast, and say nothing about the time that remains.
-    const double rate = double(now.done) / std::max(seconds(), 1e-3);
-    line_.update(double(now.done) / double(now.wanted),
-                 format("%llu of %llu, %.1f clips a second, %s left",
-                        static_cast<unsigned long long>(now.done),
-                        static_cast<unsigned long long>(now.wanted), rate,
-                        clock_text(double(now.wanted - now.done) / std::max(rate, 1e-9)).c_str()));
-  }
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  }
-  void clear() { line_.clear(); }
-
- private:
-  ProgressLine line_{"batch"};
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-};
-
-double cpu_seconds(const batch::Standing& standing) {
-  double sum = 0;
-  for (const Cost& one : standing.costs) sum += one.cpu_seconds;
-  return sum;
-}
-
-Json steps_json(const batch::Standing& standing) {
-  Json steps = Json::object();
-  for (std::size_t i = 0; i < kSteps; ++i) {
-    steps[kStepNames[i]] = {{"cpu_seconds", standing.costs[i].cpu_seconds},
-                            {"bytes", standing.costs[i].bytes}};
-  }
-  return steps;
-}
 
 // What was done now, a minute of speech of it.
 void print_profile(const batch::Standing& standing) {
@@ -107,6 +57,7 @@ std::string take(const BatchOptions& given, batch::Settings& settings) {
   if (settings.shared.out.empty()) return "-o FOLDER is missing";
   settings.form = batch::form_of(settings.manifest);
   if (given.form == "tsv") settings.form = batch::Form::table;
+  if (given.form == "csv") settings.form = batch::Form::csv;
   if (given.form == "jsonl") settings.form = batch::Form::json;
   if (given.form == "list") settings.form = batch::Form::list;
   for (const std::string& one : given.sets) {
@@ -126,13 +77,7 @@ std::string take(const BatchOptions& given, batch::Settings& settings) {
       return "--fetch and --store need {uri} and {file}";
     }
   }
-  settings.jobs = given.jobs != 0 ? given.jobs : std::max(1U, std::thread::hardware_concurrency());
-  settings.shared.version = ANIMEME_VERSION;
-  // In workers alone: there the first row begins to keep them.
-  settings.shared.run = [](std::span<const char* const> line) {
-    voice::keep_voices();
-    return run_line(line);
-  };
+  prepare_batch(settings, given.jobs);
   return {};
 }
 
@@ -161,30 +106,15 @@ Result<int> run(const BatchOptions& options) {
                                      static_cast<unsigned long long>(totals->failed)));
     return totals->failed > 0 ? kCheckFailed : kOk;
   }
-  // Read once, for all workers; what is wrong with them the rows tell.
-  for (const auto& [column, value] : settings.defaults) {
-    if (column == "model") static_cast<void>(speech::read_model(value));
-    if (column == "head") static_cast<void>(studio::load_head({.head = value}, {}));
-  }
-  static_cast<void>(speech::read_model({}));
-  const Interrupt interrupt;
-  Shown shown;
-  batch::Watch watch;
-  watch.at = [&](const batch::Standing& now) { shown.at(now); };
-  watch.failed = [&](const std::string& line) {
-    shown.clear();
-    warn(line);
-  };
-  watch.stop = [] { return Interrupt::requested(); };
-  const Result<batch::Ending> ending = batch::run_batch(settings, watch);
-  shown.clear();
+  double seconds = 0;
+  const Result<batch::Ending> ending = run_batch_shown(settings, "clips", seconds);
   if (!ending) return ending.error();
   const batch::Standing& now = ending->standing;
-  if (options.json) print_json(now, ending->totals, shown.seconds(), ending->stopped);
+  if (options.json) print_json(now, ending->totals, seconds, ending->stopped);
   say(settings.shared.out +
       format(": %llu of %llu clips in %s, %llu of them unchanged, %llu failed; %.1f CPU s",
              static_cast<unsigned long long>(now.done), static_cast<unsigned long long>(now.wanted),
-             clock_text(shown.seconds()).c_str(), static_cast<unsigned long long>(now.skipped),
+             clock_text(seconds).c_str(), static_cast<unsigned long long>(now.skipped),
              static_cast<unsigned long long>(now.failed), cpu_seconds(now)));
   if (options.profile) print_profile(now);
   if (ending->stopped) {
@@ -196,9 +126,11 @@ Result<int> run(const BatchOptions& options) {
 
 void add_options(OptionTable& cli, BatchOptions& options) {
   batch::Settings& settings = options.settings;
-  cli.add("manifest", settings.manifest,
-          "Table with a row per clip: .tsv with column names in the first line, .jsonl with "
-          "an object per line, .txt or .lst with a file per line; - for standard input")
+  cli.add(
+         "manifest", settings.manifest,
+         "Table with a row per clip: .tsv or .csv with column names in the first line, .jsonl with "
+         "an object per line, .json with a list of them, .txt or .lst with a file per line; - for "
+         "standard input")
       ->required();
   cli.add("-o,--output", settings.shared.out, "Folder for the outputs, index.tsv and report.html")
       ->output("", OutputKind::folder)
@@ -206,8 +138,8 @@ void add_options(OptionTable& cli, BatchOptions& options) {
   cli.add("--set", options.sets, "Default value of a column: lang=de, outputs=\".fba .TextGrid\"")
       ->value("COLUMN=VALUE")
       ->one_at_a_time();
-  cli.add("--form", options.form, "Format of the manifest: tsv, jsonl or list")
-      ->one_of("tsv jsonl list");
+  cli.add("--form", options.form, "Format of the manifest: tsv, csv, jsonl or list")
+      ->one_of("tsv csv jsonl list");
   cli.add("--jobs", options.jobs, "Clips in parallel; default: one per core")->between(1, 512);
   cli.add("--resume", settings.resume,
           "Skip clips that are done and unchanged: row, content of the inputs, version of "
