@@ -85,10 +85,11 @@ inline constexpr Module kModules[] = {
     {"tools/app/check", "conformance tools/formats/programs tools/formats/common", false},
     {"tools/characters/capture", "tools/formats/exchange tools/speech/talking", false},
     {"tools/app/batch", "conformance tools/formats/programs tools/formats/common", false},
+    {"tools/app/dub", "tools/app/batch tools/formats/media tools/formats/scripts", false},
     {"tools/bindings/python",
      "tools/formats/exchange tools/formats/inspect tools/speech/talking tools/view/studio", false},
     {"tools/app/commands",
-     "tools/app/batch tools/characters/capture tools/characters/crossmap tools/formats/exchange "
+     "tools/app/dub tools/characters/capture tools/characters/crossmap tools/formats/exchange "
      "tools/formats/inspect tools/live/sessions tools/live/serve "
      "tools/view/sheet tools/view/studio tools/app/check tools/app/mpi",
      false},

@@ -41,9 +41,9 @@ struct Command {
 
 /// @{
 /// The commands of the program, one file each.
-extern const Command kAlign, kBatch, kCheck, kCompare, kCorpus, kCrossmap, kDecode, kDemux, kEdit,
-    kEncode, kEvaluate, kExport, kFollow, kHead, kImport, kInfo, kManual, kMux, kPhones, kPlot,
-    kReceive, kRender, kRetarget, kServe, kSpeak, kStats, kStream, kTrain, kView;
+extern const Command kAlign, kBatch, kCheck, kCompare, kCorpus, kCrossmap, kDecode, kDemux, kDub,
+    kEdit, kEncode, kEvaluate, kExport, kFollow, kHead, kImport, kInfo, kManual, kMux, kPhones,
+    kPlot, kReceive, kRender, kRetarget, kServe, kSpeak, kStats, kStream, kTrain, kView;
 /// @}
 
 /// Prints a usage error on standard error, and which help to read; returns kUsage for the command

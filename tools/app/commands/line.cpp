@@ -21,10 +21,10 @@ namespace animeme::tools {
 namespace {
 
 constexpr const Command* kCommands[] = {
-    &kSpeak,  &kBatch, &kFollow,  &kAlign,  &kCorpus, &kTrain,    &kEvaluate, &kEncode,
-    &kDecode, &kMux,   &kDemux,   &kEdit,   &kInfo,   &kCompare,  &kCheck,    &kStats,
-    &kPlot,   &kView,  &kRender,  &kHead,   &kImport, &kCrossmap, &kRetarget, &kExport,
-    &kStream, &kServe, &kReceive, &kPhones, &kManual};
+    &kSpeak,  &kBatch,  &kDub,   &kFollow,  &kAlign,  &kCorpus, &kTrain,    &kEvaluate,
+    &kEncode, &kDecode, &kMux,   &kDemux,   &kEdit,   &kInfo,   &kCompare,  &kCheck,
+    &kStats,  &kPlot,   &kView,  &kRender,  &kHead,   &kImport, &kCrossmap, &kRetarget,
+    &kExport, &kStream, &kServe, &kReceive, &kPhones, &kManual};
 
 // Common options, and where they go.
 struct CommonFlags {
