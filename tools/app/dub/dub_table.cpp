@@ -160,7 +160,9 @@ std::string escaped_commas(const std::string& text) {
 }  // namespace
 
 std::string problem_of_name(const std::string& name) {
-  if (name.empty()) return "a template of names is empty; write {lang}";
+  if (name.find("{lang}") == std::string::npos) {
+    return "'" + name + "' lacks {lang}, so that all rows would have one name";
+  }
   std::string rest = name;
   replace_all(rest, "{lang}", "x");
   replace_all(rest, "{speaker}", "x");
