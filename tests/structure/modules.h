@@ -79,7 +79,7 @@ inline constexpr Module kModules[] = {
      "codec/text dam/evaluation dam/training fap/head tools/formats/common"},
     {"tools/live/sessions",
      "tools/live/engines tools/speech/talking tools/view/viewer tools/live/webrtc"},
-    {"tools/live/serve", "tools/live/sessions tools/formats/common", false},
+    {"tools/live/serve", "tools/live/sessions tools/formats/common conformance", false},
     {"tools/view/studio", "fap/xml tools/view/gltf tools/view/plot tools/view/render"},
     {"tools/characters/crossmap", "tools/formats/exchange tools/view/studio"},
     {"tools/app/check", "conformance tools/formats/programs tools/formats/common", false},

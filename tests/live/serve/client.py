@@ -41,14 +41,14 @@ def until(condition, seconds=30):
 class Socket:
     """A WebSocket: messages as bytes or text."""
 
-    def __init__(self, port, path, host="127.0.0.1", timeout=30):
+    def __init__(self, port, path, host="127.0.0.1", timeout=30, headers=""):
         self.closed = None  # status of the end; 0: the connection broke
         self.rest = b""
         self.socket = socket.create_connection(("127.0.0.1", port), timeout)
         key = base64.b64encode(os.urandom(16)).decode()
         self.socket.sendall((
             f"GET {path} HTTP/1.1\r\nHost: {host}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
-            f"Sec-WebSocket-Key: {key}\r\nSec-WebSocket-Version: 13\r\n\r\n").encode())
+            f"Sec-WebSocket-Key: {key}\r\nSec-WebSocket-Version: 13\r\n{headers}\r\n").encode())
         while b"\r\n\r\n" not in self.rest:
             block = self.socket.recv(65536)
             if not block:
@@ -95,6 +95,22 @@ class Socket:
             if head[0] & 128:
                 return whole
         return None
+
+    def send(self, message):
+        """Text or bytes, in a frame with a mask, as clients send it."""
+        text = isinstance(message, str)
+        body = message.encode() if text else message
+        head = bytes([0x81 if text else 0x82])
+        if len(body) < 126:
+            head += bytes([0x80 | len(body)])
+        elif len(body) < 65536:
+            head += bytes([0x80 | 126]) + struct.pack(">H", len(body))
+        else:
+            head += bytes([0x80 | 127]) + struct.pack(">Q", len(body))
+        mask = os.urandom(4)
+        whole = (mask * (len(body) // 4 + 1))[:len(body)]
+        masked = (int.from_bytes(body, "big") ^ int.from_bytes(whole, "big")).to_bytes(len(body), "big")
+        self.socket.sendall(head + mask + masked)
 
     def unit(self):
         """The next one that is no event told in words."""

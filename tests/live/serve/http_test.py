@@ -197,9 +197,9 @@ class Heads(unittest.TestCase):
     def test_the_same_again_is_no_other_head(self):
         self.assertEqual(self.server.ask("/heads/eva", "PUT", '{"pitch": 60}')[0], 201)
         self.assertEqual(self.server.ask("/heads/eva", "PUT", '{"pitch": 60}')[0], 200)
-        status, told = self.server.json("/heads/eva", "PUT", '{"pitch": 61}')
+        status, told = self.server.json("/heads/eva", "POST", '{"pitch": 61}')
         self.assertEqual(status, 409)
-        self.assertIn("DELETE", told["error"])
+        self.assertIn("PUT", told["error"])
 
     def test_what_is_wrong_is_told(self):
         for body, sentence in [
@@ -221,7 +221,7 @@ class Heads(unittest.TestCase):
                 pass  # not worth an answer
         for method, path, status in [("GET", "/nothing", 404), ("DELETE", "/heads/nobody", 404),
                                      ("POST", "/heads/nobody/say", 404), ("PUT", "/heads", 405),
-                                     ("PATCH", "/heads/a", 405), ("GET", "/heads/nobody/face", 404),
+                                     ("PATCH", "/heads/a", 404), ("PUT", "/heads/a/say", 405), ("GET", "/heads/nobody/face", 404),
                                      ("POST", "/heads/a/say", 404)]:
             self.assertEqual(self.server.ask(path, method, "" if method == "POST" else None)[0], status, path)
         self.assertEqual(self.server.json("/heads")[1]["count"], 0)

@@ -2,11 +2,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdlib>
+#include <ctime>
+#include <thread>
 
 #include "tests/live/web/chromium.h"
 #include "tests/support/folders.h"
 #include "tools/live/serve/server.h"
+#include "tools/live/webrtc/webrtc.h"
 
 namespace animeme::test {
 namespace page_test {
@@ -24,7 +28,7 @@ bool shows(Chromium& browser, const std::string& expression) {
 TEST(PageOfAHead, TalksAndStaysWithItsHead) {
   if (Chromium::find().empty()) GTEST_SKIP() << "Chromium is not installed";
   double load = 0;
-  if (getloadavg(&load, 1) == 1 && load > 10) GTEST_SKIP() << "this machine is too busy";
+  if (getloadavg(&load, 1) == 1 && load > 20) GTEST_SKIP() << "this machine is too busy";
   auto server = serve::HeadServer::open({.url = "http://127.0.0.1:0/"}, {});
   ASSERT_TRUE(server) << server.error().message;
   for (const char* name : {"anna", "ben"}) ASSERT_TRUE((*server)->make(name, {}));
@@ -47,6 +51,75 @@ TEST(PageOfAHead, TalksAndStaysWithItsHead) {
   EXPECT_TRUE(shows(browser, "animeme.state === 'live'"));
   EXPECT_THAT(browser.complaints(), testing::IsEmpty());
   browser.save_picture(std::filesystem::path(test::kBinaryFolder) / "screenshots/serve_head.png");
+  (*server)->finish();
+}
+
+// By a ticket, and by WebRTC where the module is there.
+TEST(PageOfAHead, OpensWithATicketAndByWebRtc) {
+  if (Chromium::find().empty()) GTEST_SKIP() << "Chromium is not installed";
+  double load = 0;
+  if (getloadavg(&load, 1) == 1 && load > 20) GTEST_SKIP() << "this machine is too busy";
+  serve::ServerOptions options{.url = "http://127.0.0.1:0/"};
+  options.token = "secret";
+  options.guard_viewers = true;
+  options.web.make_peer_connections = [] { return webrtc::make_peer_connections(); };
+  auto server = serve::HeadServer::open(options, {});
+  ASSERT_TRUE(server) << server.error().message;
+  ASSERT_TRUE((*server)->make("anna", {}));
+  Chromium browser;
+  ASSERT_TRUE(browser.is_open());
+  browser.open((*server)->address() + "heads/anna/", 1000, 800, false);
+  EXPECT_TRUE(shows(browser, "animeme.state === 'lost'"));
+  const std::string ticket = serve::Tickets("secret").make("anna", std::time(nullptr) + 600);
+  browser.open((*server)->address() + "heads/anna/?ticket=" + ticket, 1000, 800, false);
+  EXPECT_TRUE(shows(browser, "animeme.blocked || animeme.state === 'live'"));
+  browser.evaluate("document.getElementById('sound').click()");
+  ASSERT_TRUE(shows(browser, "animeme.state === 'live' && animeme.shown > 20"));
+  if (webrtc::is_there()) {
+    EXPECT_TRUE(shows(browser, "animeme.session.connected"));
+  }
+  EXPECT_EQ((*server)->find("anna")->figures().viewers, 1);
+  ASSERT_TRUE((*server)->find("anna")->say({"Mama, papa, and many more open their mouths."}));
+  EXPECT_TRUE(shows(browser, "Number(document.getElementById('mouth').ariaValueNow) > 10"));
+  // Made anew, it is watched again.
+  serve::HeadSettings other;
+  other.quant = 2;
+  ASSERT_TRUE((*server)->update("anna", other));
+  EXPECT_TRUE(shows(browser, "animeme.state !== 'live'"));
+  EXPECT_TRUE(shows(browser, "animeme.state === 'live'"));
+  (*server)->finish();
+}
+
+TEST(PageOfAHead, TheListShowsOne) {
+  if (Chromium::find().empty()) GTEST_SKIP() << "Chromium is not installed";
+  serve::ServerOptions options{.url = "http://127.0.0.1:0/"};
+  options.token = "secret";
+  options.guard_viewers = true;
+  auto server = serve::HeadServer::open(options, {});
+  ASSERT_TRUE(server) << server.error().message;
+  for (const char* name : {"anna", "ben"}) ASSERT_TRUE((*server)->make(name, {}));
+  Chromium browser;
+  ASSERT_TRUE(browser.is_open());
+  browser.open((*server)->address(), 1000, 800, false);
+  EXPECT_TRUE(shows(browser, "!document.getElementById('access').hidden"));
+  EXPECT_TRUE(shows(browser, "document.getElementById('heads').rows.length === 0"));
+  browser.evaluate(
+      "document.getElementById('token').value = 'secret',"
+      "document.querySelector('#access button').click()");
+  EXPECT_TRUE(shows(browser, "document.getElementById('heads').rows.length === 2"));
+  browser.evaluate("document.querySelector('tr[data-name=ben] button').click()");
+  EXPECT_TRUE(shows(browser,
+                    "document.getElementById('frame').contentWindow?.animeme?.session?.frames"
+                    ".length > 5"));
+  EXPECT_FALSE((*server)->find("ben")->figures().asleep);
+  browser.evaluate(
+      "document.getElementById('text').value = 'Hello.',"
+      "document.querySelector('#speech button').click()");
+  for (int i = 0; i < 600 && (*server)->find("ben")->figures().spoken == 0; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  EXPECT_EQ((*server)->find("ben")->figures().spoken, 1);
+  browser.save_picture(std::filesystem::path(test::kBinaryFolder) / "screenshots/serve_list.png");
   (*server)->finish();
 }
 

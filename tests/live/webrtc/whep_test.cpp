@@ -28,7 +28,7 @@ struct Seen {
 class Fake : public web::PeerConnections {
  public:
   explicit Fake(Seen& seen) : seen_(seen) {}
-  ~Fake() override { finish(); }
+  ~Fake() override { finish(true); }
   Result<void> start(const media::LiveInfo&, int, int) override {
     if (!seen_.starts) return make_error(Code::unsupported, "not today");
     return {};
@@ -49,10 +49,11 @@ class Fake : public web::PeerConnections {
     ++seen_.units;
     if (!values.empty()) ++seen_.values;
   }
-  void finish() override {
+  void finish(bool) override {
     for (std::thread& thread : std::exchange(threads_, {})) thread.join();
     ++seen_.finished;
   }
+  int busy() const override { return seen_.viewers; }
   media::SendStats stats() const override { return {.packets = 7, .receivers = seen_.viewers}; }
 
  private:

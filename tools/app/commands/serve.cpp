@@ -19,6 +19,7 @@
 #include "tools/app/commands/stream_options.h"
 #include "tools/formats/common/json.h"
 #include "tools/formats/common/text.h"
+#include "tools/formats/programs/command_template.h"
 #include "tools/live/serve/server.h"
 #include "tools/live/sessions/address.h"
 
@@ -31,6 +32,8 @@ struct ServeOptions {
   std::string heads;                // file with heads that are there from the beginning
   std::string token_file;           // --token-file
   std::vector<std::string> models;  // --model, NAME=FILE
+  std::vector<std::string> tts;     // --tts, NAME=COMMAND
+  std::string viewers = "open";     // --viewers
   HeadChoices faces;                // --head and what belongs to it
   serve::ServerOptions server;      // all others
   bool stats = false;               // --stats
@@ -48,6 +51,14 @@ std::string bad_model(const std::string& text) {
   const std::size_t equals = text.find('=');
   const bool named = equals != std::string::npos && serve::is_head_name(text.substr(0, equals));
   return named && equals + 1 < text.size() ? std::string() : "write it as NAME=FILE";
+}
+
+std::string bad_tts(const std::string& text) {
+  if (const std::string problem = bad_model(text); !problem.empty()) {
+    return "write it as NAME=COMMAND";
+  }
+  const auto command = parse_command(text.substr(text.find('=') + 1));
+  return command ? std::string() : command.error().message;
 }
 
 void add_server_web_options(OptionTable& cli, web::WebOptions& options) {
@@ -83,6 +94,16 @@ void add_options(OptionTable& cli, ServeOptions& options) {
       ->value("NAME=FILE")
       ->check(bad_model)
       ->one_at_a_time();
+  cli.add("--tts", options.tts,
+          "External TTS command, as that of speak --tts, with a name by which heads may ask for "
+          "it; may be repeated; default: espeak-ng alone")
+      ->value("NAME=COMMAND")
+      ->check(bad_tts)
+      ->one_at_a_time();
+  cli.add("--viewers", options.viewers,
+          "Who may watch: open, everybody; token, who has the token, or a ticket for the head")
+      ->one_of("open token")
+      ->show_default();
   cli.add("--max-heads", server.most_heads, "Most heads at the same time")
       ->between(1, 10000)
       ->show_default();
@@ -210,6 +231,14 @@ Result<int> run(ServeOptions& options) {
   for (const std::string& model : options.models) {
     const std::size_t equals = model.find('=');
     wanted.models[model.substr(0, equals)] = model.substr(equals + 1);
+  }
+  for (const std::string& tts : options.tts) {
+    const std::size_t equals = tts.find('=');
+    wanted.tts[tts.substr(0, equals)] = tts.substr(equals + 1);
+  }
+  wanted.guard_viewers = options.viewers == "token";
+  if (wanted.guard_viewers && wanted.token.empty()) {
+    return usage_error("--viewers token needs a token (--token-file)");
   }
   std::vector<std::pair<std::string, serve::HeadSettings>> heads;
   if (!options.heads.empty()) {

@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "tools/speech/talking/pieces.h"
+
 namespace animeme::serve {
 namespace {
 
@@ -29,22 +31,25 @@ speech::SpeakerOptions speaker_options(const HeadSettings& settings, int voice_r
 Result<std::shared_ptr<Head>> Head::open(const std::string& name, const HeadSettings& settings,
                                          std::shared_ptr<const dam::Model> model,
                                          const HeadRoom& room) {
-  Result<speech::LineMaker> maker = room.voices.maker(settings.voice);
-  if (!maker) return maker.error();
   std::shared_ptr<Head> head(new Head(name, settings, std::move(model), room));
   // Not the head itself: who calls may be the last to know it, in a thread that it waits for.
   const auto wake = [&loop = room.loop, beat = static_cast<const Beat*>(head.get())] {
     loop.wake(beat);
   };
-  head->lines_ = std::make_shared<HeadLines>(std::move(*maker), room.voices, room.clock, wake,
-                                             room.most_seconds);
+  speech::LineMaker maker = room.voice;
+  const int rate = settings.voice_rate > 0 ? settings.voice_rate : maker.sample_rate;
+  maker.pieces = std::make_shared<speech::PieceStream>(
+      settings.voice, speech::ScriptInput{.language = settings.voice.language}, rate);
+  maker.pieces->refuse_files();  // of this machine
+  head->lines_ = std::make_shared<HeadLines>(std::move(maker), room.voices, room.clock, wake,
+                                             room.most_seconds, room.slow_voice);
   auto speaker = speech::LiveSpeaker::open(*head->model_, *head->lines_, room.clock,
-                                           speaker_options(settings, head->lines_->sample_rate()));
+                                           speaker_options(settings, rate));
   if (!speaker) return speaker.error();
   head->speaker_ = std::move(*speaker);
   head->resume_ = std::min(0.0, head->speaker_->next_due().value_or(0));  // priming is before 0
   head->wanted_ = room.clock.now();
-  head->sink_ = room.server.make_sink("/heads/" + name, wake);
+  head->sink_ = room.server.make_sink("/heads/" + name, wake, settings.head);
   if (auto ok = head->sink_->start(head->speaker_->info()); !ok) return ok.error();
   return head;
 }
@@ -53,6 +58,31 @@ Head::~Head() { finish(); }
 
 Result<std::vector<std::string>> Head::say(std::vector<std::string> lines) {
   return lines_->push(std::move(lines));
+}
+
+Result<void> Head::say_sound(const std::string& id, media::Pcm sound, bool last) {
+  return lines_->push_sound(id, std::move(sound), last);
+}
+
+HeadSettings Head::settings() const {
+  const std::lock_guard lock(mutex_);
+  return settings_;
+}
+
+void Head::update(const HeadSettings& settings, speech::LineMaker voice, bool slow_voice) {
+  const HeadSettings before = this->settings();
+  const tools::Json old = settings_json(before), now = settings_json(settings);
+  lines_->speak_with(std::move(voice), slow_voice);
+  std::vector<std::string> commands;
+  if (old["mood"] != now["mood"]) {
+    commands.push_back(tools::Json{{"do", "mood"}, {"mood", now["mood"]}}.dump());
+  }
+  if (old["look"] != now["look"]) {
+    commands.push_back(tools::Json{{"do", "look"}, {"target", now["look"]}}.dump());
+  }
+  if (!commands.empty()) (void)lines_->push(std::move(commands));
+  const std::lock_guard lock(mutex_);
+  settings_ = settings;
 }
 
 bool Head::silent() const {
@@ -67,11 +97,11 @@ void Head::hush(const std::string& why) {
   (void)tell_events();
 }
 
-void Head::finish() {
+void Head::finish(bool comes_back) {
   hush("the head has gone");
   if (lines_) lines_->stop();
   const std::lock_guard lock(mutex_);
-  if (sink_) (void)sink_->finish();
+  if (sink_) (void)(comes_back ? sink_->leave() : sink_->finish());
   speaker_.reset();
 }
 
@@ -84,7 +114,11 @@ Result<void> Head::tell_events() {
   for (const speech::LineEvent& event : speaker_->take_events()) {
     journal_.line(name_, event);
     ended |= event.what == speech::LineEvent::What::done;
-    if (auto ok = sink_->tell(speech::to_json(event)); !ok) return ok;
+    if (auto ok = sink_->tell_owner(speech::to_json(event)); !ok) return ok;
+    // What is not spoken yet is not for viewers.
+    speech::LineEvent told = event;
+    if (told.what == speech::LineEvent::What::queued) told.text.clear();
+    if (auto ok = sink_->tell(speech::to_json(told)); !ok) return ok;
   }
   if (ended) note_latencies();
   return {};

@@ -27,6 +27,8 @@ namespace animeme::serve {
 /// The services that a head needs; they must outlive the head.
 struct HeadRoom {
   Voices& voices;              ///< synthesise its lines
+  speech::LineMaker voice;     ///< of the head
+  bool slow_voice = false;     ///< which may take long
   web::WebServer& server;      ///< serves it
   ClockLoop& loop;             ///< runs its steps
   media::Clock& clock;         ///< that of the loop
@@ -52,26 +54,32 @@ struct HeadFigures {
 /// Thread safe.
 class Head : public Beat {
  public:
-  /// At `name` of the server: /heads/NAME/. Waits for the voice. `model` is shared. Errors: those
-  /// of Voices::maker(), LiveSpeaker::open() and WebSink::start().
+  /// At `name` of the server: /heads/NAME/. `model` is shared. Errors: those of
+  /// LiveSpeaker::open() and WebSink::start().
   static Result<std::shared_ptr<Head>> open(const std::string& name, const HeadSettings& settings,
                                             std::shared_ptr<const dam::Model> model,
                                             const HeadRoom& room);
   ~Head() override;
 
-  const HeadSettings& settings() const { return settings_; }  ///< as they were given
+  HeadSettings settings() const;  ///< as they were given
+  /// Other settings, which differ by with_live_parts() alone; `voice`: of the lines that follow.
+  void update(const HeadSettings& settings, speech::LineMaker voice, bool slow_voice);
   /// As HeadLines::push().
   Result<std::vector<std::string>> say(std::vector<std::string> lines);
+  /// As HeadLines::push_sound().
+  Result<void> say_sound(const std::string& id, media::Pcm sound, bool last);
   /// Cancels what it says and was to say, with events. Call ClockLoop::remove() first, so that no
   /// step runs.
   void hush(const std::string& why);
-  /// Ends it, after hush(), and informs its viewers. Call ClockLoop::remove() first.
-  void finish();
+  /// Ends it, after hush(), and informs its viewers: that it has gone, or, `comes_back`, that it is
+  /// made anew. Call ClockLoop::remove() first.
+  void finish(bool comes_back = false);
   bool silent() const;  ///< nothing is said, and nothing waits to be said
-  double seconds_waiting() const { return lines_->seconds(); }     ///< of speech, about
-  std::size_t lines_waiting() const { return lines_->waiting(); }  ///< lines and their parts
-  std::size_t bytes_waiting() const { return lines_->bytes(); }    ///< of text
-  HeadFigures figures() const;                                     ///< now
+  double seconds_waiting() const { return lines_->seconds(); }         ///< of speech, about
+  std::size_t lines_waiting() const { return lines_->waiting(); }      ///< lines and their parts
+  std::size_t bytes_waiting() const { return lines_->bytes(); }        ///< of text
+  std::size_t sound_waiting() const { return lines_->piece_bytes(); }  ///< bytes of pieces
+  HeadFigures figures() const;                                         ///< now
   double step() override;
   /// Every plane so far is added to `meter`.
   void add_lateness(media::LatenessMeter& meter) const;
@@ -80,10 +88,10 @@ class Head : public Beat {
   Head(const std::string& name, const HeadSettings& settings,
        std::shared_ptr<const dam::Model> model, const HeadRoom& room)
       : name_(name),
-        settings_(settings),
         model_(std::move(model)),
         clock_(room.clock),
         journal_(room.journal),
+        settings_(settings),
         pacer_(room.clock) {}
   bool wanted() const;
   Result<void> send_due();
@@ -91,13 +99,13 @@ class Head : public Beat {
   void note_latencies();
 
   const std::string name_;
-  const HeadSettings settings_;
   const std::shared_ptr<const dam::Model> model_;
   media::Clock& clock_;
   Journal& journal_;
   std::shared_ptr<HeadLines> lines_;
 
   mutable std::mutex mutex_;  // for what follows
+  HeadSettings settings_;
   std::unique_ptr<speech::LiveSpeaker> speaker_;
   std::unique_ptr<web::WebSink> sink_;
   media::Pacer pacer_;

@@ -5,19 +5,21 @@
 #include <utility>
 
 #include "tools/speech/talking/line_command.h"
+#include "tools/speech/talking/pieces.h"
 
 namespace animeme::serve {
 namespace {
 
-constexpr double kBytesPerSecond = 14;  // of a text that is spoken at the usual speed
+constexpr double kBytesPerSecond = 14;          // of a text that is spoken at the usual speed
+constexpr double kSoundBytesPerSecond = 80000;  // of pieces of sound, as services send them
 
 double seconds_of(std::size_t bytes) { return double(bytes) / kBytesPerSecond; }
 
 // What a line does to the queue.
 enum class What : std::uint8_t { speaks, replaces, marks, empties, moves, ends };
 
-What what_is(const std::string& line) {
-  const Result<speech::LineCommand> command = speech::read_line(line, false);
+What what_is(const std::string& line, bool piece) {
+  const Result<speech::LineCommand> command = speech::read_line(line, piece);
   if (!command) return What::moves;  // it is refused
   switch (command->what) {
     case speech::LineCommand::Do::say:
@@ -34,61 +36,83 @@ What what_is(const std::string& line) {
   }
 }
 
-// Sound takes memory, and a voice that speaks for long lets others wait.
-speech::LineMaker in_parts(speech::LineMaker maker) {
-  if (maker.cut) maker.most_bytes = std::min(maker.most_bytes, HeadLines::kPartBytes);
-  maker.one_line = true;
-  return maker;
-}
-
 }  // namespace
 
 HeadLines::HeadLines(speech::LineMaker maker, Voices& voices, media::Clock& clock,
-                     std::function<void()> changed, double most_seconds)
-    : maker_(in_parts(std::move(maker))),
+                     std::function<void()> changed, double most_seconds, bool slow)
+    : pieces_(maker.pieces),
+      sample_rate_(maker.sample_rate),
       most_seconds_(most_seconds),
       voices_(voices),
       clock_(clock),
-      queue_(maker_.most_bytes, maker_.cut, maker_.json, maker_.pieces, maker_.one_line),
+      queue_(maker.cut ? std::min(maker.most_bytes, kPartBytes) : maker.most_bytes, maker.cut,
+             maker.json, maker.pieces, true),
+      maker_(std::make_shared<const speech::LineMaker>(std::move(maker))),
+      slow_(slow),
       changed_(std::move(changed)) {}
+
+void HeadLines::speak_with(speech::LineMaker maker, bool slow) {
+  maker.pieces = pieces_;
+  const std::lock_guard lock(mutex_);
+  maker_ = std::make_shared<const speech::LineMaker>(std::move(maker));
+  slow_ = slow;
+}
 
 Result<std::vector<std::string>> HeadLines::push(std::vector<std::string> lines) {
   const std::lock_guard one_at_a_time(pushing_);
   std::erase_if(lines, [](const std::string& line) { return line.empty(); });
-  std::size_t bytes = queue_.bytes(), count = queue_.waiting();
+  std::size_t bytes = queue_.bytes(), count = queue_.waiting(), sound = queue_.piece_bytes();
   bool more = false;  // than commands that make room
+  std::vector<bool> are_pieces;
+  std::vector<What> whats;
   for (const std::string& line : lines) {
-    const What what = what_is(line);
+    const bool piece = pieces_ && line.starts_with('{') && speech::is_piece(line);
+    const What what = what_is(line, piece);
+    are_pieces.push_back(piece);
+    whats.push_back(what);
     if (what == What::ends) {
       return make_error(Code::invalid_argument, "\"end\" is not supported for a head; use DELETE");
     }
-    if (what == What::empties || what == What::replaces) bytes = count = 0;
+    if (what == What::empties || what == What::replaces) bytes = count = sound = 0;
     if (what == What::empties || what == What::moves) continue;
-    bytes += line.size();
+    (piece ? sound : bytes) += line.size();
     ++count;
     more = true;
   }
   const bool waits = count > 1 && seconds_of(bytes) > most_seconds_;
-  if (more && (count > kMostLines || bytes > kMostBytes || waits)) {
+  if (more && (count > kMostLines || bytes > kMostBytes || sound > kMostSound || waits)) {
     return make_error(Code::out_of_range,
                       "too much is queued; send more when some of it has been spoken");
   }
   Result<void> done;
   std::vector<std::string> ids;
-  for (std::string& line : lines) {
-    const What what = what_is(line);
-    done = queue_.push(std::move(line), clock_.now());
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const What what = whats[i];
+    done = are_pieces[i] ? queue_.push_piece(std::move(lines[i]), clock_.now())
+                         : queue_.push(std::move(lines[i]), clock_.now());
     if (!done) break;
     if (what == What::speaks || what == What::replaces) ids.push_back(queue_.last_id());
   }
+  changed_by_push();
+  if (!done) return done.error();
+  return ids;
+}
+
+Result<void> HeadLines::push_sound(const std::string& id, media::Pcm sound, bool last) {
+  if (!pieces_) return make_error(Code::unsupported, "this head takes no sound");
+  const std::lock_guard one_at_a_time(pushing_);
+  Result<void> done = queue_.push_sound(id, std::move(sound), last, clock_.now());
+  changed_by_push();
+  return done;
+}
+
+void HeadLines::changed_by_push() {
   {
     const std::lock_guard lock(mutex_);
     news_ = true;
   }
   order();
   tell();
-  if (!done) return done.error();
-  return ids;
 }
 
 bool HeadLines::idle() const {
@@ -100,7 +124,11 @@ std::size_t HeadLines::waiting() const { return queue_.waiting(); }
 
 std::size_t HeadLines::bytes() const { return queue_.bytes(); }
 
-double HeadLines::seconds() const { return seconds_of(queue_.bytes()); }
+std::size_t HeadLines::piece_bytes() const { return queue_.piece_bytes(); }
+
+double HeadLines::seconds() const {
+  return seconds_of(queue_.bytes()) + double(queue_.piece_bytes()) / kSoundBytesPerSecond;
+}
 
 std::int64_t HeadLines::given() const {
   const std::lock_guard lock(mutex_);
@@ -144,21 +172,35 @@ std::string HeadLines::last_warning() const {
 
 // One line at a time, so that a head with a book to read lets others speak.
 void HeadLines::order() {
+  bool slow = false;
   {
     const std::lock_guard lock(mutex_);
-    if (making_ || !queue_.try_job()) return;
+    if (making_) return;
+    const std::optional<speech::LineQueue::Job> job = queue_.try_job();
+    if (!job) return;
+    slow = slow_ || job->piece != 0;
     making_ = true;
   }
-  voices_.post([self = shared_from_this()] { self->make_one(); });
+  const auto make = [self = shared_from_this()] { self->make_one(); };
+  if (slow) {
+    voices_.post_slow(make);
+  } else {
+    voices_.post(make);
+  }
 }
 
 void HeadLines::make_one() {
+  std::shared_ptr<const speech::LineMaker> maker;
+  {
+    const std::lock_guard lock(mutex_);
+    maker = maker_;
+  }
   if (std::optional<speech::LineQueue::Job> job = queue_.try_job()) {
     const std::uint64_t number = job->line;
     const auto wanted = [this, number] { return queue_.wanted(number); };
     Result<speech::SpokenLine> line = make_error(Code::internal, "");
     try {
-      line = speech::make_line(maker_, std::move(*job), wanted);
+      line = speech::make_line(*maker, std::move(*job), wanted);
     } catch (const std::exception& problem) {  // memory
       line = make_error(Code::out_of_range, problem.what());
     }

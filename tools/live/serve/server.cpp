@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <system_error>
 
+#include "tools/live/serve/say_intake.h"
 #include "tools/speech/talking/spoken.h"
+#include "tools/speech/talking/voice_command.h"
 
 namespace animeme::serve {
 namespace {
 
-constexpr std::size_t kMostAsked = 256;  // requests that wait
+constexpr std::size_t kMostAsked = 256;                    // requests that wait
+constexpr std::size_t kMostRequest = 65536;                // bytes of one
+constexpr std::size_t kMostSound = std::size_t(64) << 20;  // bytes that wait for all heads together
 constexpr int kMostHeads = 10000;
 // A server that cannot keep up: a share of its planes comes so much later than it is due.
 constexpr double kLate = 0.1, kLateShare = 0.01;  // seconds
@@ -16,6 +20,22 @@ constexpr std::size_t kLateSeconds = 11;          // ten seconds
 constexpr std::int64_t kFewPlanes = 25;
 
 Error bad(const std::string& sentence) { return make_error(Code::invalid_argument, sentence); }
+
+// A body that nobody wants.
+class Refused : public web::Intake {
+ public:
+  Refused(web::ServerReply reply, web::ServerAnswer answer)
+      : reply_(std::move(reply)), answer_(std::move(answer)) {}
+  void take(std::string, bool) override {}
+  bool full() const override { return false; }
+  void end(bool whole) override {
+    if (whole) answer_(std::move(reply_));
+  }
+
+ private:
+  web::ServerReply reply_;
+  const web::ServerAnswer answer_;
+};
 
 int threads_of(const ServerOptions& options) {
   return options.threads > 0 ? options.threads : int(std::thread::hardware_concurrency());
@@ -32,6 +52,9 @@ Result<std::unique_ptr<HeadServer>> HeadServer::open(
   }
   if (!(options.expire >= 0)) return bad("heads cannot expire before they are made");
   if (!(options.most_seconds >= 1)) return bad("a second of speech may wait at least");
+  if (options.guard_viewers && options.token.empty()) {
+    return bad("tickets of viewers are made with the token, and there is none");
+  }
   std::unique_ptr<HeadServer> server(new HeadServer(options));
   voice::keep_voices();  // one thread speaks: that of the voices
   try {
@@ -45,13 +68,25 @@ Result<std::unique_ptr<HeadServer>> HeadServer::open(
     Result<speech::LineMaker> voice = server->voices_->maker(options.defaults.voice);
     if (!voice) return voice.error();
     for (Desk* desk : {&server->others_, &server->makers_}) {
-      desk->thread = std::thread([raw = server.get(), desk] { raw->answer_all(*desk); });
+      desk->thread = std::thread([raw = server.get(), desk] { raw->work(*desk); });
     }
   } catch (const std::system_error&) {
     return make_error(Code::io, "no threads can be started for the heads");
   }
+  web::ServerOptions web_options;
+  web_options.web = options.web;
+  web_options.most_message = SayIntake::kMostFile;
+  web_options.intake = [raw = server.get()](const web::ServerRequest& request,
+                                            web::ServerAnswer answer) {
+    return raw->open_intake(request, std::move(answer));
+  };
+  if (options.guard_viewers) {
+    web_options.may_watch = [raw = server.get()](const web::ServerRequest& request) {
+      return raw->may_watch(request);
+    };
+  }
   auto web = web::WebServer::open(
-      options.url, {options.web},
+      options.url, web_options,
       [raw = server.get()](web::ServerRequest request, web::ServerAnswer answer) {
         raw->ask(std::move(request), std::move(answer));
       });
@@ -119,9 +154,7 @@ Result<std::shared_ptr<Head>> HeadServer::make(const std::string& name,
                                                 " heads already, as many as may be (--max-heads)");
     }
   }
-  auto found = model(settings.model);
-  if (!found) return found.error();
-  Result<std::shared_ptr<Head>> head = Head::open(name, settings, *found, room());
+  Result<std::shared_ptr<Head>> head = open_head(name, settings);
   if (!head) return head;
   {
     const std::lock_guard lock(mutex_);
@@ -133,13 +166,97 @@ Result<std::shared_ptr<Head>> HeadServer::make(const std::string& name,
   return head;
 }
 
+// Names that only the server knows.
+Result<void> HeadServer::check(const HeadSettings& settings) const {
+  const auto list = [](const auto& names) {
+    std::string all;
+    for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+    return all;
+  };
+  if (!settings.tts.empty() && !options_.tts.contains(settings.tts)) {
+    std::vector<std::string> names;
+    for (const auto& [name, command] : options_.tts) names.push_back(name);
+    return bad("there is no voice '" + settings.tts.substr(0, 60) + "'" +
+               (names.empty() ? "; commands are named with --tts NAME=COMMAND"
+                              : "; there are " + list(names)));
+  }
+  if (settings.head.empty()) return {};
+  std::vector<std::string> names{options_.web.head_name};
+  for (const web::WebHead& head : options_.web.other_heads) names.push_back(head.name);
+  std::erase(names, std::string());
+  if (std::find(names.begin(), names.end(), settings.head) != names.end()) return {};
+  return bad("the page has no head '" + settings.head.substr(0, 60) + "'" +
+             (names.empty() ? "; heads are named with --head" : "; there are " + list(names)));
+}
+
+Result<HeadServer::Voice> HeadServer::voice(const HeadSettings& settings) {
+  if (auto ok = check(settings); !ok) return ok.error();
+  if (settings.tts.empty()) {
+    Result<speech::LineMaker> maker = voices_->maker(settings.voice);
+    if (!maker) return maker.error();
+    return Voice{std::move(*maker), false};
+  }
+  speech::VoiceCommand command{.command = options_.tts.at(settings.tts)};
+  command.input.language = settings.voice.language;
+  Result<speech::LineMaker> maker = speech::command_lines(command);
+  if (!maker) return maker.error();
+  return Voice{std::move(*maker), true};
+}
+
+// With making_.
+Result<std::shared_ptr<Head>> HeadServer::open_head(const std::string& name,
+                                                    const HeadSettings& settings) {
+  auto found = model(settings.model);
+  if (!found) return found.error();
+  Result<Voice> spoken = voice(settings);
+  if (!spoken) return spoken.error();
+  return Head::open(name, settings, *found,
+                    {*voices_, std::move(spoken->maker), spoken->slow, *server_, *loop_,
+                     media::steady_clock(), journal_, options_.most_seconds});
+}
+
+Result<void> HeadServer::update(const std::string& name, const HeadSettings& settings) {
+  const std::lock_guard one_at_a_time(making_);
+  Kept known;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = heads_.find(name);
+    if (found == heads_.end()) return make_error(Code::not_found, "there is no such head");
+    known = found->second;
+  }
+  const HeadSettings old = known.head->settings();
+  if (settings_json(old) == settings_json(settings)) return {};
+  Result<Voice> spoken = voice(settings);
+  if (!spoken) return spoken.error();
+  if (settings_json(with_live_parts(old, settings)) == settings_json(settings)) {
+    known.head->update(settings, std::move(spoken->maker), spoken->slow);
+    journal_.head(name, "changed");
+    return {};
+  }
+  if (auto found = model(settings.model); !found) return found.error();
+  {
+    const std::lock_guard lock(mutex_);
+    heads_.erase(name);
+  }
+  end(known.head, true);
+  Result<std::shared_ptr<Head>> head = open_head(name, settings);
+  if (!head) return head.error();
+  {
+    const std::lock_guard lock(mutex_);
+    heads_[name] = {*head, known.expires};
+  }
+  loop_->add(*head);
+  journal_.head(name, "made anew");
+  return {};
+}
+
 std::shared_ptr<Head> HeadServer::find(const std::string& name) const {
   const std::lock_guard lock(mutex_);
   const auto found = heads_.find(name);
   return found == heads_.end() ? nullptr : found->second.head;
 }
 
-void HeadServer::end(const std::shared_ptr<Head>& head) {
+void HeadServer::end(const std::shared_ptr<Head>& head, bool comes_back) {
   loop_->remove(head.get());
   const HeadFigures figures = head->figures();
   {
@@ -147,7 +264,7 @@ void HeadServer::end(const std::shared_ptr<Head>& head) {
     head->add_lateness(gone_late_);
     gone_planes_ += figures.planes;
   }
-  head->finish();
+  head->finish(comes_back);
 }
 
 bool HeadServer::remove(const std::string& name) {
@@ -186,6 +303,9 @@ void HeadServer::look_at_lateness() {
 
 void HeadServer::look() {
   look_at_lateness();
+  std::size_t sound = 0;
+  for (const auto& [name, head] : all()) sound += head->sound_waiting();
+  sound_waiting_ = sound;
   if (options_.expire <= 0) return;
   std::vector<std::string> old;
   {
@@ -232,9 +352,11 @@ void HeadServer::finish() {
 bool HeadServer::makes_a_head(const web::ServerRequest& request) const {
   constexpr std::string_view kPath = "/heads/", kSaying = "/say";
   if (!request.path.starts_with(kPath)) return false;
-  if (request.method != "PUT" && request.method != "POST") return false;
+  if (request.method != "PUT" && request.method != "POST" && request.method != "PATCH") {
+    return false;
+  }
   std::string name = request.path.substr(kPath.size());
-  if (!name.ends_with(kSaying)) return true;
+  if (!name.ends_with(kSaying)) return name.find('/') == std::string::npos;
   name.resize(name.size() - kSaying.size());
   return options_.make_on_say && !heads_.contains(name);
 }
@@ -251,8 +373,14 @@ void HeadServer::ask(web::ServerRequest request, web::ServerAnswer answer) {
   {
     const std::lock_guard lock(mutex_);
     Desk& desk = makes_a_head(request) ? makers_ : others_;
-    if (!stopping_ && server_ && desk.asked.size() < kMostAsked) {
-      desk.asked.push_back({std::move(request), std::move(answer)});
+    if (!stopping_ && server_ && desk.jobs.size() < kMostAsked) {
+      desk.jobs.push_back([this, request = std::move(request), answer = std::move(answer)] {
+        try {
+          answer(this->answer(request));
+        } catch (const std::exception&) {  // memory
+          answer({500, "{\"error\": \"There is not enough memory for this.\"}\n"});
+        }
+      });
       desk.changed.notify_one();
       return;
     }
@@ -262,23 +390,71 @@ void HeadServer::ask(web::ServerRequest request, web::ServerAnswer answer) {
   answer(std::move(busy));
 }
 
-void HeadServer::answer_all(Desk& desk) {
+void HeadServer::post(std::function<void()> job) {
+  const std::lock_guard lock(mutex_);
+  if (stopping_) return;
+  others_.jobs.push_back(std::move(job));
+  others_.changed.notify_one();
+}
+
+void HeadServer::work(Desk& desk) {
   std::unique_lock lock(mutex_);
   while (!stopping_) {
-    if (desk.asked.empty()) {
+    if (desk.jobs.empty()) {
       desk.changed.wait(lock);
       continue;
     }
-    const Asked asked = std::move(desk.asked.front());
-    desk.asked.pop_front();
+    std::function<void()> job = std::move(desk.jobs.front());
+    desk.jobs.pop_front();
     lock.unlock();
     try {
-      asked.answer(answer(asked.request));
-    } catch (const std::exception&) {  // memory
-      asked.answer({500, "{\"error\": \"There is not enough memory for this.\"}\n"});
+      job();
+    } catch (const std::exception&) {  // memory: what it was for is lost, the server stays
     }
+    job = nullptr;
     lock.lock();
   }
+}
+
+// In the thread of the server.
+Result<std::shared_ptr<web::Intake>> HeadServer::open_intake(const web::ServerRequest& request,
+                                                             web::ServerAnswer answer) {
+  const std::shared_ptr<web::Intake> none;
+  constexpr std::string_view kPath = "/heads/", kSaying = "/say";
+  Result<IntakeFormat> format = intake_format(request.type, request.query);
+  // What is small and whole is a request like others.
+  const bool large = request.length < 0 || request.length > std::int64_t(kMostRequest);
+  const bool lines = format && format->kind == IntakeFormat::Kind::lines;
+  if (!request.socket && lines && !large) return none;
+  if (!request.path.starts_with(kPath) || !request.path.ends_with(kSaying)) return none;
+  const std::string name =
+      request.path.substr(kPath.size(), request.path.size() - kPath.size() - kSaying.size());
+  if (!request.socket) {
+    answer = [this, method = request.method, path = request.path, answer = std::move(answer),
+              begun = media::steady_clock().now()](web::ServerReply reply) {
+      journal_.request(method, path, reply.status, media::steady_clock().now() - begun);
+      answer(std::move(reply));
+    };
+  }
+  const auto refused = [&](unsigned status, const Error& error) {
+    if (request.socket) return Result<std::shared_ptr<web::Intake>>(error);
+    web::ServerReply reply{status, tools::Json{{"error", error.describe()}}.dump() + "\n"};
+    if (status == 503) reply.retry_after = 1;
+    return Result<std::shared_ptr<web::Intake>>(
+        std::make_shared<Refused>(std::move(reply), std::move(answer)));
+  };
+  if (!allowed(request)) return refused(401, bad("this needs the token of the server"));
+  if (!format) return refused(400, format.error());
+  const std::shared_ptr<Head> head = find(name);
+  if (!head) return refused(404, make_error(Code::not_found, "there is no such head"));
+  if (draining() && !request.socket) return refused(503, bad("the server is about to end"));
+  SayIntake::Services services;
+  services.post = [this](std::function<void()> job) { post(std::move(job)); };
+  services.full = [this] { return sound_waiting_ > kMostSound; };
+  services.say = [this, name](const std::string& body) { return say(name, body); };
+  return std::shared_ptr<web::Intake>(std::make_shared<SayIntake>(
+      head, std::move(*format), request.socket, "sound-" + std::to_string(++sounds_),
+      std::move(services), std::move(answer)));
 }
 
 }  // namespace animeme::serve

@@ -9,6 +9,7 @@
 /// tools/live/serve/README.md documents the requests.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <deque>
 #include <map>
@@ -21,6 +22,7 @@
 
 #include "tools/live/serve/head.h"
 #include "tools/live/serve/settings.h"
+#include "tools/live/serve/tickets.h"
 #include "tools/live/serve/voices.h"
 #include "tools/live/web/web_server.h"
 
@@ -40,6 +42,9 @@ struct ServerOptions {
   bool make_on_say = false;                       ///< saying something to a missing head creates it
   HeadSettings defaults;                          ///< defaults for heads
   std::map<std::string, std::string> models;      ///< files of models, by name
+  std::map<std::string, std::string> tts;         ///< commands as speech::VoiceCommand, by name
+  /// Viewers need the token or a ticket (tickets.h); with a token alone.
+  bool guard_viewers = false;
   int threads = 0;  ///< for generating planes and packets; 0: one per core
   MakerOf voices;   ///< empty: speech::voice_lines()
   Log log;          ///< receives requests, heads and lines; empty: nobody
@@ -57,6 +62,9 @@ class HeadServer {
   HeadServer& operator=(const HeadServer&) = delete;
 
   std::string address() const { return server_->address(); }  ///< with the real port
+  /// Changes a head: without an interruption where only with_live_parts() differ, else it is made
+  /// anew, its lines are cancelled and its viewers come back. Errors: not_found, those of make().
+  Result<void> update(const std::string& name, const HeadSettings& settings);
   /// Creates a head, or returns an existing one with these settings. Errors: invalid_argument (the
   /// name; settings; the name exists with other settings), out_of_range (too many heads), those of
   /// Head::open() and read_model(). `expires`: whether ServerOptions::expire applies.
@@ -82,21 +90,21 @@ class HeadServer {
     std::shared_ptr<Head> head;
     bool expires = true;
   };
-  struct Asked {
-    web::ServerRequest request;
-    web::ServerAnswer answer;
-  };
   explicit HeadServer(const ServerOptions& options);
 
   // Requests that wait for a thread of their own: those that make heads wait for voices and models,
   // others for nothing.
   struct Desk {
-    std::deque<Asked> asked;
+    std::deque<std::function<void()>> jobs;
     std::condition_variable changed;
     std::thread thread;
   };
   void ask(web::ServerRequest request, web::ServerAnswer answer);
-  void answer_all(Desk& desk);
+  Result<std::shared_ptr<web::Intake>> open_intake(const web::ServerRequest& request,
+                                                   web::ServerAnswer answer);
+  bool may_watch(const web::ServerRequest& request) const;
+  void post(std::function<void()> job);
+  void work(Desk& desk);
   bool makes_a_head(const web::ServerRequest& request) const;
   web::ServerReply health() const;
   web::ServerReply ready() const;
@@ -104,18 +112,25 @@ class HeadServer {
   void look_at_lateness();
   web::ServerReply answer(const web::ServerRequest& request);
   web::ServerReply answer_head(const web::ServerRequest& request, const std::string& name);
-  web::ServerReply put(const std::string& name, const std::string& body);
+  web::ServerReply put(const std::string& name, const std::string& method, const std::string& body);
+  web::ServerReply ticket(const std::string& name, const std::string& body) const;
+  web::ServerReply make_for_request(const std::string& name, const HeadSettings& settings);
   web::ServerReply say(const std::string& name, const std::string& body);
   bool allowed(const web::ServerRequest& request) const;
   Result<std::shared_ptr<const dam::Model>> model(const std::string& name);
-  HeadRoom room() {
-    return {*voices_, *server_, *loop_, media::steady_clock(), journal_, options_.most_seconds};
-  }
-  void end(const std::shared_ptr<Head>& head);
+  struct Voice {
+    speech::LineMaker maker;
+    bool slow = false;
+  };
+  Result<Voice> voice(const HeadSettings& settings);
+  Result<std::shared_ptr<Head>> open_head(const std::string& name, const HeadSettings& settings);
+  Result<void> check(const HeadSettings& settings) const;
+  void end(const std::shared_ptr<Head>& head, bool comes_back = false);
   std::vector<std::pair<std::string, std::shared_ptr<Head>>> all() const;
 
   const ServerOptions options_;
   Journal journal_{options_.log};
+  const Tickets tickets_{options_.token};
   const double begun_ = media::steady_clock().now();
   std::map<std::string, std::shared_ptr<const dam::Model>> models_;  // with making_
   std::unique_ptr<Voices> voices_;
@@ -135,6 +150,8 @@ class HeadServer {
   };
   std::deque<Planes> seconds_;  // so far, at the end of each of the last seconds
   Desk others_, makers_;
+  std::uint64_t sounds_ = 0;                    // that got a name
+  std::atomic<std::size_t> sound_waiting_ = 0;  // bytes of all heads, as of the last look()
 };
 
 }  // namespace animeme::serve

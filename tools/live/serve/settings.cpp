@@ -108,6 +108,15 @@ Result<HeadSettings> read_settings(const Json& json, HeadSettings settings) {
   members.text("lang", settings.voice.language);
   members.number("speed", 80, 450, settings.voice.words_per_minute);
   members.number("pitch", 0, 100, settings.voice.pitch);
+  members.text("tts", settings.tts);
+  int voice_rate = 0;
+  if (!members.is_null("voice_rate")) {
+    members.number("voice_rate", 8000, 48000, voice_rate);
+    if (voice_rate > 0) settings.voice_rate = voice_rate;
+  } else {
+    settings.voice_rate = 0;
+  }
+  members.text("head", settings.head);
   std::string rate;
   double hertz = settings.motion.rate.frames_per_second();
   if (json.contains("rate") && json["rate"].is_string()) {
@@ -153,11 +162,22 @@ Result<HeadSettings> read_settings(const Json& json, HeadSettings settings) {
   return settings;
 }
 
+HeadSettings with_live_parts(HeadSettings from, const HeadSettings& to) {
+  from.voice = to.voice;
+  from.tts = to.tts;
+  from.mood = to.mood;
+  from.idle.look = to.idle.look;
+  return from;
+}
+
 Json settings_json(const HeadSettings& settings) {
   return {{"model", settings.model},
           {"lang", settings.voice.language},
           {"speed", settings.voice.words_per_minute},
           {"pitch", settings.voice.pitch},
+          {"tts", settings.tts},
+          {"voice_rate", settings.voice_rate > 0 ? Json(settings.voice_rate) : Json(nullptr)},
+          {"head", settings.head},
           {"rate", fap::format_rate(settings.motion.rate)},
           {"style", settings.motion.style},
           {"sharpness", settings.motion.sharpness},

@@ -23,6 +23,9 @@ namespace animeme::serve {
 struct HeadSettings {
   std::string model;             ///< "model": a name known to the server; empty: built-in
   voice::VoiceOptions voice;     ///< "lang", "speed" (words a minute), "pitch"
+  std::string tts;               ///< "tts": a command known to the server; empty: espeak-ng
+  int voice_rate = 0;            ///< "voice_rate": Hz, 8000..48000; 0: that of the voice
+  std::string head;              ///< "head": a head of the page; empty: the first one
   dam::SynthesisOptions motion;  ///< "rate", "style", "sharpness", "articulate", "tongue"
   bool idle_motion = true;       ///< "idle_motion": gaze, blinks, brows and head
   /// Of the idle motion: "seed" (0..1e9), "liveliness" (0..2), "still" ("gaze,head"), "look"
@@ -41,6 +44,10 @@ struct HeadSettings {
 /// Applies `json`, an object, to `settings`. Errors: invalid_argument (an unknown member or an
 /// invalid value; the message names it).
 Result<HeadSettings> read_settings(const tools::Json& json, HeadSettings settings);
+
+/// What changes without an interruption: the voice (not its rate), the mood, where it looks.
+/// `from` with these of `to`.
+HeadSettings with_live_parts(HeadSettings from, const HeadSettings& to);
 
 /// All members, in the format of read_settings().
 tools::Json settings_json(const HeadSettings& settings);

@@ -2,6 +2,7 @@
 
 #include <exception>
 #include <future>
+#include <system_error>
 #include <utility>
 
 #include "tools/formats/common/text.h"
@@ -20,9 +21,11 @@ Voices::~Voices() {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
     jobs_.clear();
+    slow_jobs_.clear();
   }
   changed_.notify_all();
   thread_.join();
+  for (std::thread& thread : slow_) thread.join();
 }
 
 void Voices::post(std::function<void()> job) {
@@ -31,7 +34,45 @@ void Voices::post(std::function<void()> job) {
     if (stopping_) return;
     jobs_.push_back(std::move(job));
   }
-  changed_.notify_one();
+  changed_.notify_all();
+}
+
+void Voices::post_slow(std::function<void()> job) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (stopping_) return;
+    slow_jobs_.push_back(std::move(job));
+    if (int(slow_jobs_.size()) > idle_ && slow_.size() < kMostSlow) {
+      try {
+        slow_.emplace_back([this] { run_slow(); });
+      } catch (const std::system_error&) {
+        // Those that there are do it.
+        if (slow_.empty()) {
+          jobs_.push_back(std::move(slow_jobs_.back()));
+          slow_jobs_.pop_back();
+        }
+      }
+    }
+  }
+  changed_.notify_all();
+}
+
+void Voices::run_slow() {
+  std::unique_lock lock(mutex_);
+  while (!stopping_) {
+    if (slow_jobs_.empty()) {
+      ++idle_;
+      changed_.wait(lock);
+      --idle_;
+      continue;
+    }
+    std::function<void()> job = std::move(slow_jobs_.front());
+    slow_jobs_.pop_front();
+    lock.unlock();
+    job();
+    job = nullptr;
+    lock.lock();
+  }
 }
 
 void Voices::post_first(std::function<void()> job) {
@@ -40,7 +81,7 @@ void Voices::post_first(std::function<void()> job) {
     if (stopping_) return;
     jobs_.push_front(std::move(job));
   }
-  changed_.notify_one();
+  changed_.notify_all();
 }
 
 Result<speech::LineMaker> Voices::find(const voice::VoiceOptions& options) {

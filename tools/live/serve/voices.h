@@ -1,8 +1,9 @@
 /// @file
-/// The voice thread of all heads, which synthesises lines in order of arrival.
+/// The threads that make speech for all heads, in order of arrival.
 ///
 /// espeak-ng speaks one text at a time, but 500 times faster than real time, so one thread is
-/// enough for hundreds of heads.
+/// enough for hundreds of heads. What may take longer than what it says, external commands, and the
+/// sound that others send, has threads of its own, kMostSlow of them at most.
 #pragma once
 
 #include <condition_variable>
@@ -12,6 +13,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "fap/result.h"
 #include "tools/speech/talking/lines.h"
@@ -28,7 +30,7 @@ class Voices {
   /// `maker_of` is called in the thread, once for each requested voice; usually
   /// speech::voice_lines(). std::system_error if no thread can be started.
   explicit Voices(MakerOf maker_of);
-  ~Voices();  ///< waits for the running job and drops the others
+  ~Voices();  ///< waits for the running jobs and drops the others
   Voices(const Voices&) = delete;
   Voices& operator=(const Voices&) = delete;
 
@@ -37,10 +39,14 @@ class Voices {
   Result<speech::LineMaker> maker(const voice::VoiceOptions& options);
   /// Queues `job` for the thread. It must not throw.
   void post(std::function<void()> job);
+  static constexpr int kMostSlow = 10;  ///< threads for what may take long
+  /// Queues `job` for one of the others. It must not throw.
+  void post_slow(std::function<void()> job);
 
  private:
   void post_first(std::function<void()> job);
   void run();
+  void run_slow();
   Result<speech::LineMaker> find(const voice::VoiceOptions& options);
 
   const MakerOf maker_of_;
@@ -48,7 +54,10 @@ class Voices {
   std::mutex mutex_;                                 // for what follows
   std::condition_variable changed_;
   std::deque<std::function<void()>> jobs_;
+  std::deque<std::function<void()>> slow_jobs_;
+  int idle_ = 0;  // of the slow threads
   bool stopping_ = false;
+  std::vector<std::thread> slow_;
   std::thread thread_;
 };
 

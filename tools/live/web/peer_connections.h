@@ -24,8 +24,9 @@ struct PeerAnswer {
 class PeerConnections {
  public:
   virtual ~PeerConnections() = default;
-  /// Call first, once. At most `most` connections at a time, `per_address` of one address (0: any
-  /// number). Errors: unsupported (with this sound, or on this machine).
+  /// Call first, once; takes no time, and starts nothing that runs. At most `most` connections at a
+  /// time, `per_address` of one address (0: any number). Errors: unsupported (with this sound, or
+  /// on this machine).
   virtual Result<void> start(const media::LiveInfo& info, int most, int per_address) = 0;
   /// A page was opened, so that offers may come soon.
   virtual void expect() = 0;
@@ -40,8 +41,10 @@ class PeerConnections {
   virtual void send(const media::LiveUnit& unit, std::string_view values) = 0;
   /// A message of LiveSink::tell(), with the times of `/faps`; it may get lost.
   virtual void tell(std::string_view json) { (void)json; }
-  /// Says goodbye to all and closes.
-  virtual void finish() = 0;
+  /// Closes all. `over`: viewers are told that the presentation is over; else they come back.
+  virtual void finish(bool over) = 0;
+  /// Connections, also those that are being made.
+  virtual int busy() const = 0;
   /// `receivers`, `packets`, `bytes`, `dropped` and `repeated` of all connections.
   virtual media::SendStats stats() const = 0;
 };

@@ -90,6 +90,10 @@ class WebSink : public media::LiveSink {
  public:
   /// "http://127.0.0.1:8080/" with the real port; empty before start().
   virtual std::string address() const = 0;
+  /// As LiveSink::tell(), for the sockets of an Intake (web_server.h) alone.
+  virtual Result<void> tell_owner(const std::string& json) = 0;
+  /// Instead of finish(): viewers are told to come back (1001), as what they watch is made anew.
+  virtual Result<void> leave() = 0;
 };
 
 /// A server at http://HOST:PORT/. HOST is the address to listen at: none, or localhost: this

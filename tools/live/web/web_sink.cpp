@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <exception>
+#include <initializer_list>
 
 #include "tools/formats/common/json.h"
 #include "tools/formats/media/detail/tracks/words_internal.h"
@@ -44,14 +45,17 @@ class Sink : public WebSink {
       : address_(std::move(address)), options_(options) {}
   /// On a shared server, below `path`.
   Sink(WebAddress address, const WebOptions& options, std::shared_ptr<Server> server,
-       std::string path, std::function<void()> joined)
+       std::string path, std::function<void()> joined, std::string head)
       : address_(std::move(address)),
         options_(options),
         shared_server_(std::move(server)),
         path_(std::move(path)),
-        joined_(std::move(joined)) {}
+        joined_(std::move(joined)),
+        head_(std::move(head)) {}
   ~Sink() override {
-    if (shared_server_ && broadcast_) shared_server_->close(path_);
+    if (peer_connections_) peer_connections_->finish(true);  // they answer no more
+    // Once it is over, its path may be that of another one.
+    if (shared_server_ && broadcast_ && !over_) shared_server_->close(path_);
   }
 
   Result<void> start(const media::LiveInfo& info) override {
@@ -66,32 +70,26 @@ class Sink : public WebSink {
   Result<void> tell(const std::string& json) override {
     return guarded([&]() -> Result<void> {
       if (!broadcast_ || over_) return invalid("the sink is not running");
-      return publish_note(json);
+      return publish_note(json, {Channel::face, Channel::faps, Channel::planes});
+    });
+  }
+  Result<void> tell_owner(const std::string& json) override {
+    return guarded([&]() -> Result<void> {
+      if (!broadcast_ || over_) return invalid("the sink is not running");
+      return publish_note(json, {Channel::owner});
     });
   }
   Result<void> poll() override { return {}; }
-
-  Result<void> finish() override {
-    return guarded([&]() -> Result<void> {
-      if (!broadcast_ || over_) return {};
-      Result<void> flushed = flush();
-      over_ = true;
-      if (peer_connections_) peer_connections_->finish();
-      if (shared_server_) {
-        shared_server_->close(path_);
-      } else {
-        server_->finish();
-      }
-      return flushed;
-    });
-  }
+  Result<void> finish() override { return end(false); }
+  Result<void> leave() override { return end(true); }
 
   media::SendStats stats() const override {
     media::SendStats stats = broadcast_ ? broadcast_->stats() : media::SendStats{};
     if (server_) stats.receivers = server_->viewers();
     if (peer_connections_) {
       const media::SendStats more = peer_connections_->stats();
-      stats.receivers += more.receivers;
+      // Of many heads, one that nobody watches sleeps; viewers need it to connect.
+      stats.receivers += server_ ? more.receivers : peer_connections_->busy();
       stats.packets += more.packets;
       stats.bytes += more.bytes;
       stats.dropped += more.dropped;
@@ -110,11 +108,26 @@ class Sink : public WebSink {
   }
 
  private:
+  Result<void> end(bool comes_back) {
+    return guarded([&]() -> Result<void> {
+      if (!broadcast_ || over_) return {};
+      Result<void> flushed = flush();
+      over_ = true;
+      if (shared_server_) {
+        shared_server_->close(path_, comes_back);
+      } else {
+        server_->finish(comes_back);
+      }
+      if (peer_connections_) peer_connections_->finish(!comes_back);
+      return flushed;
+    });
+  }
+
   Result<void> begin(const media::LiveInfo& info);
   Result<void> send_face(const LiveUnit& unit);
   void send_values(const LiveUnit& unit);
   Result<void> send_sound(const LiveUnit& unit);
-  Result<void> publish_note(const std::string& json);
+  Result<void> publish_note(const std::string& json, std::initializer_list<Channel> channels);
   Result<void> flush();
   void describe();
 
@@ -124,6 +137,7 @@ class Sink : public WebSink {
   const std::shared_ptr<Server> shared_server_;  // null: the sink has its own server
   const std::string path_;
   const std::function<void()> joined_;
+  const std::string head_;
   std::unique_ptr<Server> server_;
   std::shared_ptr<Broadcast> broadcast_;
   std::shared_ptr<PeerConnections> peer_connections_;  // null: no WebRTC
@@ -163,13 +177,13 @@ Result<void> Sink::begin(const media::LiveInfo& info) {
     broadcast_->set_hello(channel, {.bytes = {names.begin(), names.end()}, .text = true});
   }
   if (!init.empty()) broadcast_->set_hello(Channel::audio, {.bytes = std::move(init)});
-  if (server_ && options_.make_peer_connections) {
+  if (options_.make_peer_connections) {
     peer_connections_ = options_.make_peer_connections();
     Result<void> ready =
         peer_connections_->start(info_, options_.max_clients, options_.per_address);
     if (!ready && options_.must_have_peer_connections) return ready;
     if (!ready) peer_connections_.reset();
-    server_->set_peer_connections(peer_connections_);
+    broadcast_->set_peers(peer_connections_);
   }
   describe();
   if (!server.open(path_, broadcast_)) {
@@ -198,6 +212,7 @@ void Sink::describe() {
     json["heads"] = {options_.head_name};
     for (const WebHead& head : options_.other_heads) json["heads"].push_back(head.name);
   }
+  if (!head_.empty()) json["head"] = head_;
   if (peer_connections_) json["webrtc"] = true;  // at /whep
   json["clients"] = stats().receivers;
   // Names of heads may be any text.
@@ -231,7 +246,8 @@ Result<void> Sink::send_face(const LiveUnit& unit) {
 /// then gets, with the next plane, all since the last intra plane.
 void Sink::send_values(const LiveUnit& unit) {
   if (shared_server_ && unit.intra) unread_.clear();
-  const bool wanted = broadcast_->wanted(Channel::faps) || broadcast_->wanted(Channel::planes);
+  const bool wanted = broadcast_->wanted(Channel::faps) || broadcast_->wanted(Channel::planes) ||
+                      (peer_connections_ && peer_connections_->busy() > 0);
   if (shared_server_ && !wanted) {
     if (unit.intra || !unread_.empty()) unread_.push_back(unit);
     values_ = Values();
@@ -267,7 +283,9 @@ Result<void> Sink::send_sound(const LiveUnit& unit) {
   if (!info_.audio) return invalid("start() was called without sound");
   const std::int64_t time = unit.time + std::int64_t(info_.audio->sample_rate) * kWebTimeZero;
   if (time < 0) return invalid("a packet is more than a second before time 0");
-  if (peer_connections_) peer_connections_->send(unit, {});
+  if (peer_connections_ && (server_ || peer_connections_->busy() > 0)) {
+    peer_connections_->send(unit, {});
+  }
   const bool follows = packets_.empty() || packets_.back().time + packets_.back().duration == time;
   if (!follows) {
     if (Result<void> flushed = flush(); !flushed) return flushed;
@@ -278,18 +296,18 @@ Result<void> Sink::send_sound(const LiveUnit& unit) {
   return flush();
 }
 
-/// All sockets of the face have it, between the frames.
-Result<void> Sink::publish_note(const std::string& json) {
+/// To the sockets of some channels, between the frames.
+Result<void> Sink::publish_note(const std::string& json, std::initializer_list<Channel> channels) {
   Result<tools::Json> note = tools::Json::parse(json);
   if (!note || !note->is_object()) return invalid("an event must be a JSON object");
   if (const tools::Json* time = note->find("time"); time != nullptr && time->is_number()) {
     (*note)["time"] = time->get<double>() + kWebTimeZero;
   }
   const std::string text = note->dump();
-  for (const Channel channel : {Channel::face, Channel::faps, Channel::planes}) {
+  for (const Channel channel : channels) {
     broadcast_->publish(channel, {.bytes = {text.begin(), text.end()}, .text = true, .time = now_});
+    if (channel == Channel::faps && peer_connections_) peer_connections_->tell(text);
   }
-  if (peer_connections_) peer_connections_->tell(text);
   return {};
 }
 
@@ -356,9 +374,9 @@ class SharedServer : public WebServer {
     for (WebHead& head : options_.other_heads) head.model.clear();  // pages get their names only
   }
   std::string address() const override { return address_.text(); }
-  std::unique_ptr<WebSink> make_sink(const std::string& path,
-                                     std::function<void()> joined) override {
-    return std::make_unique<Sink>(address_, options_, server_, path, std::move(joined));
+  std::unique_ptr<WebSink> make_sink(const std::string& path, std::function<void()> joined,
+                                     const std::string& head) override {
+    return std::make_unique<Sink>(address_, options_, server_, path, std::move(joined), head);
   }
   int viewers() const override { return server_->viewers(); }
   void finish() override { server_->finish(true); }

@@ -36,7 +36,7 @@ std::string make_id() {
 class PeerHub : public web::PeerConnections {
  public:
   PeerHub(const WebRtcOptions& options, bool now) : options_(options), now_(now) {}
-  ~PeerHub() override { finish(); }
+  ~PeerHub() override { finish(true); }
 
   Result<void> start(const media::LiveInfo& info, int most, int per_address) override;
   void expect() override;
@@ -44,7 +44,8 @@ class PeerHub : public web::PeerConnections {
   bool end(const std::string& id) override;
   void send(const media::LiveUnit& unit, std::string_view values) override;
   void tell(std::string_view json) override;
-  void finish() override;
+  void finish(bool over) override;
+  int busy() const override;
   media::SendStats stats() const override;
 
  private:
@@ -60,6 +61,7 @@ class PeerHub : public web::PeerConnections {
   };
   using Viewers = std::map<std::string, Viewer>;  // by id
 
+  void begin();
   void run();
   void let_in(Offer offer);
   void look_after(std::vector<Viewer>& gone);
@@ -76,6 +78,7 @@ class PeerHub : public web::PeerConnections {
   Viewers viewers_;
   std::vector<Offer> offers_;
   std::vector<Viewer> gone_;  // to be closed by the thread
+  int joining_ = 0;           // offers that the thread is answering
   bool expected_ = false, loaded_ = false, over_ = false;
   std::thread thread_;
 };
@@ -92,8 +95,17 @@ Result<void> PeerHub::start(const media::LiveInfo& info, int most, int per_addre
   most_ = most;
   per_address_ = per_address;
   has_sound_ = info.audio.has_value();
-  thread_ = std::thread([this] { run(); });
   return {};
+}
+
+// The first one that may connect, and those after it, need a thread. With the lock held.
+void PeerHub::begin() {
+  if (!over_ && !thread_.joinable()) thread_ = std::thread([this] { run(); });
+}
+
+int PeerHub::busy() const {
+  const std::lock_guard lock(mutex_);
+  return int(viewers_.size() + offers_.size()) + joining_;
 }
 
 /// With the lock held.
@@ -110,6 +122,7 @@ bool PeerHub::has_place(const std::string& address) const {
 void PeerHub::expect() {
   const std::lock_guard lock(mutex_);
   if (std::exchange(expected_, true)) return;
+  begin();
   changed_.notify_all();
 }
 
@@ -121,6 +134,7 @@ void PeerHub::offer(std::string sdp, std::string address, Answer answer) {
     return;
   }
   offers_.push_back({share_transport(sdp), std::move(address), make_id(), std::move(answer)});
+  begin();
   changed_.notify_all();
 }
 
@@ -155,10 +169,16 @@ void PeerHub::tell(std::string_view json) {
 void PeerHub::run() {
   std::unique_lock lock(mutex_);
   while (!over_) {
-    changed_.wait_for(lock, kLookEvery, [this] {
+    const auto news = [this] {
       return over_ || !offers_.empty() || !gone_.empty() || expected_ > loaded_;
-    });
+    };
+    if (viewers_.empty()) {
+      changed_.wait(lock, news);
+    } else {
+      changed_.wait_for(lock, kLookEvery, news);
+    }
     std::vector<Offer> offers = std::exchange(offers_, {});
+    joining_ = int(offers.size());
     std::vector<Viewer> gone = std::exchange(gone_, {});
     look_after(gone);
     const bool first = expected_ && !std::exchange(loaded_, true);
@@ -168,6 +188,7 @@ void PeerHub::run() {
     gone.clear();             // waits for their threads
     for (Offer& offer : offers) let_in(std::move(offer));
     lock.lock();
+    joining_ = 0;
   }
 }
 
@@ -211,11 +232,11 @@ void PeerHub::let_in(Offer offer) {
   viewers_[offer.id] = std::move(viewer);
 }
 
-void PeerHub::finish() {
+void PeerHub::finish(bool over) {
   {
     std::unique_lock lock(mutex_);
     if (over_) return;
-    for (int i = 0; i < 3 && !viewers_.empty(); ++i) {
+    for (int i = 0; over && i < 3 && !viewers_.empty(); ++i) {
       for (auto& [id, viewer] : viewers_) feed_->end(viewer);
       changed_.wait_for(lock, kGoodbye, [] { return false; });
     }

@@ -60,10 +60,38 @@ LineNews behaviour_news(const LineCommand& command, double at) {
 }  // namespace
 
 Result<void> LineQueue::push(std::string line, double arrived) {
+  return push(std::move(line), arrived, json_);
+}
+
+Result<void> LineQueue::push_piece(std::string line, double arrived) {
+  return push(std::move(line), arrived, true);
+}
+
+Result<void> LineQueue::push_sound(const std::string& id, media::Pcm sound, bool last,
+                                   double arrived) {
+  const std::size_t bytes = sound.samples.size() * sizeof(float);
+  const std::lock_guard lock(mutex_);
+  const Result<PieceStream::Taken> taken = pieces_->add_sound(id, std::move(sound), last);
+  if (!taken) return taken.error();
+  Entry entry{.line = number_ + 1, .id = id, .arrived = arrived, .bytes = bytes, .is_piece = true};
+  if (!add_piece(entry, taken)) {
+    changed_.notify_all();
+    return {};
+  }
+  ++number_;
+  tell(LineNews::What::queued, entry, {}, arrived);
+  last_id_ = entry.id;
+  piece_bytes_ += bytes;
+  entries_.push_back(std::move(entry));
+  changed_.notify_all();
+  return {};
+}
+
+Result<void> LineQueue::push(std::string line, double arrived, bool piece) {
   if (line.empty()) return {};
   const std::string shown = beginning(line);
   // Looked at before the lock is taken: a piece of many megabytes takes its time.
-  Result<LineCommand> command = read_line(std::move(line), json_);
+  Result<LineCommand> command = read_line(std::move(line), piece);
   const std::lock_guard lock(mutex_);
   ++number_;
   if (!command) {
@@ -74,7 +102,7 @@ Result<void> LineQueue::push(std::string line, double arrived) {
   }
   switch (command->what) {
     case LineCommand::Do::say:
-      say(std::move(*command), arrived);
+      say(std::move(*command), arrived, piece);
       break;
     case LineCommand::Do::stop:
       forget_all(LineNews::What::stopped, "stopped", arrived);
@@ -111,13 +139,14 @@ Result<void> LineQueue::push(std::string line, double arrived) {
   return {};
 }
 
-void LineQueue::say(LineCommand command, double arrived) {
+void LineQueue::say(LineCommand command, double arrived, bool piece) {
   if (command.when == LineCommand::When::now) {
     forget_all(LineNews::What::stopped, "stopped", arrived);
   }
   // A text that is too long is spoken in parts: lines of their own, or one line if it has a name.
   std::vector<std::string> parts;
-  if (cut_) cut_at_blanks(command.payload, most_bytes_, parts);
+  const std::size_t most = json_ || !piece ? most_bytes_ : kMostPiece;
+  if (cut_ && !piece) cut_at_blanks(command.payload, most_bytes_, parts);
   parts.emplace_back(media::trim(command.payload));
   // What is to be next follows the marks of what is spoken now.
   auto place = entries_.end();
@@ -141,27 +170,27 @@ void LineQueue::say(LineCommand command, double arrived) {
     if (whole > 0 && i == 0) entry.text = command.text;
     entry.payload = std::move(parts[i]);
     entry.bytes = entry.payload.size();
-    const bool fits = entry.payload.size() <= most_bytes_;
-    if (pieces_ && fits && !add_piece(entry)) continue;
+    entry.is_piece = piece;
+    const bool fits = entry.payload.size() <= most;
+    if (pieces_ && piece && fits && !add_piece(entry, pieces_->add(entry.payload))) continue;
     if (entry.first_part) {
       tell(LineNews::What::queued, entry, {}, arrived);
       last_id_ = entry.id;
     }
     if (!fits) {
       const std::string why =
-          "it has more than " + std::to_string(most_bytes_) + " bytes; send shorter pieces";
+          "it has more than " + std::to_string(most) + " bytes; send shorter pieces";
       warnings_.push_back(name_of(number_, entry.payload) + ", is left out: " + why);
       tell(LineNews::What::cancelled, entry, why, arrived);
       continue;
     }
-    bytes_ += entry.bytes;
+    (entry.is_piece ? piece_bytes_ : bytes_) += entry.bytes;
     entries_.insert(place, std::move(entry));
   }
 }
 
 // False: nothing of it waits to be spoken.
-bool LineQueue::add_piece(Entry& entry) {
-  const Result<PieceStream::Taken> taken = pieces_->add(entry.payload);
+bool LineQueue::add_piece(Entry& entry, const Result<PieceStream::Taken>& taken) {
   const std::string name = name_of(entry.line, entry.text.empty() ? entry.payload : entry.text);
   if (!taken) {
     const std::string why = taken.error().describe();
@@ -224,7 +253,7 @@ void LineQueue::tell_words(std::uint64_t line, const Result<SpokenLine>& speech)
 }
 
 void LineQueue::forget(const Entry& entry) {
-  bytes_ -= entry.bytes;
+  (entry.is_piece ? piece_bytes_ : bytes_) -= entry.bytes;
   if (entry.speech) --made_;
   if (entry.piece != 0) pieces_->forget(entry.piece);
 }
@@ -264,7 +293,7 @@ void LineQueue::close() {
 
 bool LineQueue::full() {
   const std::lock_guard lock(mutex_);
-  return bytes_ >= kQueueBytes || entries_.size() >= kQueueLines;
+  return bytes_ + piece_bytes_ >= kQueueBytes || entries_.size() >= kQueueLines;
 }
 
 std::string LineQueue::last_id() {
@@ -280,6 +309,11 @@ std::size_t LineQueue::waiting() {
 std::size_t LineQueue::bytes() {
   const std::lock_guard lock(mutex_);
   return bytes_;
+}
+
+std::size_t LineQueue::piece_bytes() {
+  const std::lock_guard lock(mutex_);
+  return piece_bytes_;
 }
 
 std::optional<LineQueue::Job> LineQueue::look_for_job() {

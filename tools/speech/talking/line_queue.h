@@ -19,13 +19,14 @@
 #include "fap/result.h"
 #include "tools/speech/talking/line_command.h"
 #include "tools/speech/talking/lines.h"
+#include "tools/speech/talking/pieces.h"
 
 namespace animeme::speech {
 
 /// Thread safe.
 class LineQueue : public LineSource {
  public:
-  /// The members of LineMaker.
+  /// The members of LineMaker. `json`: push() takes pieces.
   LineQueue(std::size_t most_bytes, bool cut, bool json,
             std::shared_ptr<PieceStream> pieces = nullptr, bool one_line = false)
       : most_bytes_(most_bytes),
@@ -37,13 +38,19 @@ class LineQueue : public LineSource {
   /// Adds a line of the input without surrounding blanks; ignores empty lines. Errors: those of
   /// read_line(), which are also warnings (take_warnings()).
   Result<void> push(std::string line, double arrived);
+  /// The same for a line that is a piece, or a command, among lines of text. Needs a PieceStream.
+  Result<void> push_piece(std::string line, double arrived);
+  /// Sound of an utterance as samples, which is a line named `id`; `last`: the utterance ends.
+  /// Needs a PieceStream. Errors: those of PieceStream::add_sound().
+  Result<void> push_sound(const std::string& id, media::Pcm sound, bool last, double arrived);
   /// No more lines will come: the queue is spoken, then it ends.
   void close();
   /// Whether the limit of 64 MB or 100000 lines is reached. push() still works.
   bool full();
-  std::string last_id();  ///< of the line that was queued last; empty: none
-  std::size_t waiting();  ///< lines and marks not yet returned by take()
-  std::size_t bytes();    ///< of these, before synthesis
+  std::string last_id();      ///< of the line that was queued last; empty: none
+  std::size_t waiting();      ///< lines and marks not yet returned by take()
+  std::size_t bytes();        ///< of these, before synthesis; without pieces
+  std::size_t piece_bytes();  ///< of the pieces among them, as they came
 
   /// A line to synthesise.
   struct Job {
@@ -80,7 +87,8 @@ class LineQueue : public LineSource {
     std::string id, text, payload, language;
     double arrived = 0;
     bool mark = false;
-    std::size_t bytes = 0;                   // of what came
+    std::size_t bytes = 0;  // of what came
+    bool is_piece = false;
     std::uint64_t piece = 0, utterance = 0;  // of the PieceStream
     bool stale = false;                      // to be made again; `speech` is there until then
     std::uint64_t whole = 0;                 // as SpokenLine
@@ -97,8 +105,9 @@ class LineQueue : public LineSource {
     bool stale = false;
   };
 
-  void say(LineCommand command, double arrived);
-  bool add_piece(Entry& entry);
+  Result<void> push(std::string line, double arrived, bool piece);
+  void say(LineCommand command, double arrived, bool piece);
+  bool add_piece(Entry& entry, const Result<PieceStream::Taken>& taken);
   void improve(std::uint64_t utterance);
   void forget(const Entry& entry);
   void keep_in_mind(const Entry& entry, const SpokenLine& line);
@@ -116,8 +125,8 @@ class LineQueue : public LineSource {
   std::condition_variable changed_;
   Entries entries_;
   std::deque<Gone> gone_;
-  std::size_t bytes_ = 0;  // of payloads
-  std::size_t made_ = 0;   // entries with speech
+  std::size_t bytes_ = 0, piece_bytes_ = 0;  // of payloads
+  std::size_t made_ = 0;                     // entries with speech
   std::uint64_t number_ = 0;
   std::string last_id_;
   std::vector<LineNews> news_;

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "fap/result.h"
+#include "tools/formats/media/pcm.h"
 
 namespace animeme::speech {
 
@@ -18,6 +20,7 @@ struct PieceMessage {
   std::string language;             ///< empty: not said
   std::vector<std::uint8_t> bytes;  ///< of the sound
   std::string file;                 ///< path of the sound
+  std::optional<media::Pcm> pcm;    ///< the sound, where it came as samples
   std::string coding;               ///< name of the coding of `bytes`; empty: not said
   double sample_rate = 0;           ///< Hz; 0: not said
   int channels = 0;                 ///< 0: not said
@@ -30,7 +33,7 @@ struct PieceMessage {
   bool small_talk = false;          ///< it is a message of a service about other things
   std::string error;                ///< the service says that something is wrong
 
-  bool has_sound() const { return !bytes.empty() || !file.empty(); }
+  bool has_sound() const { return !bytes.empty() || !file.empty() || pcm; }
   /// Whether it says how the sound of others is stored.
   bool has_format() const { return !coding.empty() || sample_rate > 0 || channels > 0; }
 };

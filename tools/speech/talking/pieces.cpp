@@ -11,6 +11,7 @@
 
 #include "tools/formats/media/audio.h"
 #include "tools/formats/scripts/script_text.h"
+#include "tools/speech/talking/json_line_internal.h"
 #include "tools/speech/talking/piece_message_internal.h"
 #include "tools/speech/talking/sound_coding.h"
 #include "tools/speech/talking/sound_ear.h"
@@ -164,7 +165,9 @@ struct PieceStream::Impl {
   double sample_rate = 0;
   int channels = 1;
   bool waits_for_times = false;  // times came in messages of their own before
+  bool files = true;             // messages may name some
 
+  Result<Taken> take(PieceMessage& message);
   std::shared_ptr<Utterance> utterance_of(const PieceMessage& message);
   void prune();
   Result<media::Pcm> decode(PieceMessage& message, Utterance& utterance);
@@ -216,6 +219,7 @@ void PieceStream::Impl::prune() {
 }
 
 Result<media::Pcm> PieceStream::Impl::decode(PieceMessage& message, Utterance& utterance) {
+  if (message.pcm) return std::move(*message.pcm);
   const media::ReadAudioOptions limit{.max_seconds = kMostPieceSeconds};
   if (!message.file.empty()) {
     Result<media::Pcm> pcm = media::read_audio(message.file, limit);
@@ -300,22 +304,52 @@ PieceStream::~PieceStream() {
   for (const auto& [key, piece] : impl_->pieces) piece->utterance->pieces.clear();
 }
 
+void PieceStream::refuse_files() {
+  const std::lock_guard lock(impl_->mutex);
+  impl_->files = false;
+}
+
+Result<PieceStream::Taken> PieceStream::add_sound(const std::string& utterance, media::Pcm sound,
+                                                  bool last) {
+  if (sound.sample_rate < 1000 || sound.sample_rate > 384000) {
+    return make_error(Code::invalid_argument, "a sound has 1000 to 384000 samples a second");
+  }
+  if (sound.duration() > kMostPieceSeconds) {
+    return make_error(Code::out_of_range, "it has more than 600 s of sound; send shorter pieces");
+  }
+  PieceMessage message;
+  message.utterance = utterance;
+  message.last = last;
+  message.small_talk = true;  // the end of an utterance may come alone
+  if (!sound.samples.empty()) message.pcm = std::move(sound);
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->take(message);
+}
+
 Result<PieceStream::Taken> PieceStream::add(std::string_view json) {
   Result<PieceMessage> read = read_message(json);
   if (!read) return read.error();
-  PieceMessage& message = *read;
   const std::lock_guard lock(impl_->mutex);
+  if (!read->file.empty() && !impl_->files) {
+    return make_error(Code::invalid_argument,
+                      "the sound cannot be a file here; put it into \"audio\" as base64");
+  }
+  return impl_->take(*read);
+}
+
+// With the mutex.
+Result<PieceStream::Taken> PieceStream::Impl::take(PieceMessage& message) {
   if (message.has_format()) {
     // A coding that is named says all; a rate alone leaves the rest as it was.
     if (!message.coding.empty()) {
-      impl_->coding = message.coding;
-      impl_->sample_rate = 0;
-      impl_->channels = 1;
+      coding = message.coding;
+      sample_rate = 0;
+      channels = 1;
     }
-    if (message.sample_rate > 0) impl_->sample_rate = message.sample_rate;
-    if (message.channels > 0) impl_->channels = message.channels;
+    if (message.sample_rate > 0) sample_rate = message.sample_rate;
+    if (message.channels > 0) channels = message.channels;
   }
-  const std::shared_ptr<Utterance> utterance = impl_->utterance_of(message);
+  const std::shared_ptr<Utterance> utterance = utterance_of(message);
   if (!message.language.empty()) utterance->language = message.language;
   Taken taken;
   taken.utterance = utterance->number;
@@ -328,14 +362,14 @@ Result<PieceStream::Taken> PieceStream::add(std::string_view json) {
   if (message.has_sound() || (!utterance->named && (whole_text || !message.labels.empty()) &&
                               !(message.small_talk && message.text.empty()))) {
     if (whole_text && utterance->named && utterance->text.empty()) utterance->text = message.text;
-    Result<Taken> spoken = impl_->speech_of(message, utterance);
+    Result<Taken> spoken = speech_of(message, utterance);
     if (!spoken) return spoken;
     taken = std::move(*spoken);
   } else {
     // About the sound of others.
     if (whole_text) utterance->text = message.text;
     if (!message.labels.empty() && utterance->named) {
-      utterance->told_alone = impl_->waits_for_times = true;
+      utterance->told_alone = waits_for_times = true;
       utterance->unread.push_back(
           {std::move(message.labels), 0, 0, message.labels_given,
            message.times_from == From::unknown ? From::utterance : message.times_from});
@@ -347,7 +381,7 @@ Result<PieceStream::Taken> PieceStream::add(std::string_view json) {
     if (message.last && utterance->sound == 0 && !utterance->text.empty()) {
       message.text = utterance->text;
       message.labels.clear();
-      Result<Taken> spoken = impl_->speech_of(message, utterance);
+      Result<Taken> spoken = speech_of(message, utterance);
       if (!spoken) return spoken;
       taken = std::move(*spoken);
     } else if (nothing && !message.small_talk && !message.has_format() && message.error.empty()) {
@@ -573,6 +607,14 @@ Result<SpokenLine> PieceStream::words(std::uint64_t key) {
   impl_->read(*piece.utterance, unread, how, line.doubt);
   line.words = piece.utterance->times.between(piece.start, piece.end(), nullptr).words;
   return line;
+}
+
+bool is_piece(std::string_view json) {
+  const Result<PieceMessage> message = read_message(json);
+  if (!message) return parse_object(json).has_value();  // one that is wrong
+  if (message->has_sound() || message->has_format() || !message->utterance.empty()) return true;
+  if (message->small_talk || message->labels_given || message->labels_are_events) return true;
+  return !message->labels.empty() && scripts::read_labels(message->labels).has_value();
 }
 
 Result<SpokenLine> read_piece(std::string_view json, const voice::VoiceOptions& voice,

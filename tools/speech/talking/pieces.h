@@ -76,6 +76,12 @@ class PieceStream {
   /// without a rate, nothing to say), those of media::read_audio(); out_of_range (longer than
   /// kMostPieceSeconds, nested more than 64 deep).
   Result<Taken> add(std::string_view json);
+  /// Takes sound that came as samples, 1000..384000 Hz; `last`: its utterance ends. Without samples
+  /// it has nothing to say. Errors: invalid_argument (the rate), out_of_range (longer than
+  /// kMostPieceSeconds).
+  Result<Taken> add_sound(const std::string& utterance, media::Pcm sound, bool last);
+  /// From now on messages that name a file are errors (invalid_argument): they come from others.
+  void refuse_files();
   /// The speech of a piece by what is known now; may be repeated, which is useful while
   /// SpokenLine::improvable is true and something was added to its utterance. Errors: not_found
   /// (forgotten); without sound those of time_sound() and voice::speak_text().
@@ -93,6 +99,10 @@ class PieceStream {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Whether a JSON object has to do with sound, or with times of sound, and so is no line of text:
+/// it has a sound or tells how it is stored, names an utterance, or holds times.
+bool is_piece(std::string_view json);
 
 /// The speech of one piece alone. Errors: those of PieceStream.
 Result<SpokenLine> read_piece(std::string_view json, const voice::VoiceOptions& voice,

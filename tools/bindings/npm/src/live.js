@@ -68,7 +68,11 @@ const kRetry = [0.5, 1, 2, 4];  // seconds
 
 // One connection to the server. `heard()`: it has begun to speak.
 async function session(url, {media, silent, track, signal, told}, heard) {
-  const address = (path) => new URL(path, url).href.replace(/^http/, 'ws');
+  const address = (path) => {
+    const whole = new URL(path, url);
+    whole.search = new URL(url).search;  // a ticket
+    return whole.href.replace(/^http/, 'ws');
+  };
   let hello = null, decoder = null, buffer = null, player = media, failSound;
   const noSound = new Promise((_, fail) => { failSound = fail; });
   let sound = null;

@@ -25,6 +25,12 @@ bool is_plain_path(const std::string& path) {
   });
 }
 
+bool is_plain_query(const std::string& query) {
+  return query.size() <= 512 && std::all_of(query.begin(), query.end(), [](char c) {
+           return c > ' ' && c <= '~' && c != '#' && c != '"' && c != '<' && c != '>';
+         });
+}
+
 }  // namespace
 
 Result<WebAddress> parse_web_address(const std::string& url, bool with_path) {
@@ -38,8 +44,13 @@ Result<WebAddress> parse_web_address(const std::string& url, bool with_path) {
     return bad("not an address of a web server");
   }
   std::string place = url.substr(scheme + 3);
-  const std::size_t path = place.find('/');
   WebAddress address;
+  if (const std::size_t query = place.find('?'); with_path && query != std::string::npos) {
+    address.query = place.substr(query + 1);
+    place.resize(query);
+    if (!is_plain_query(address.query)) return bad("the query has an invalid character");
+  }
+  const std::size_t path = place.find('/');
   if (path != std::string::npos && path + 1 != place.size()) {
     address.path = place.substr(path);
     if (!with_path) return bad("the address has a path");

@@ -12,6 +12,7 @@ struct WebAddress {
   int port = 80;     ///< 0: any free one (servers)
   /// In front of the names of resources: "", or "/heads/anna" (clients).
   std::string path = {};
+  std::string query = {};  ///< "ticket=..." of all of them; empty: none (clients)
 
   /// "http://HOST:PORT/"
   std::string text() const {
@@ -20,7 +21,8 @@ struct WebAddress {
   }
 };
 
-/// http://HOST:PORT/ or ws://HOST:PORT/; no host: this machine. `with_path`: a path may follow.
+/// http://HOST:PORT/ or ws://HOST:PORT/; no host: this machine. `with_path`: a path and a query may
+/// follow.
 /// Errors: invalid_argument (another address, a path), unsupported (https, wss).
 Result<WebAddress> parse_web_address(const std::string& url, bool with_path = false);
 

@@ -50,7 +50,8 @@ media::SendStats Broadcast::stats() const {
   stats.bytes = hub_.bytes();
   stats.dropped = hub_.dropped();
   const int sound = clients_[std::size_t(Channel::audio)];
-  const int all = std::accumulate(clients_.begin(), clients_.end(), 0);
+  const int owners = clients_[std::size_t(Channel::owner)];
+  const int all = std::accumulate(clients_.begin(), clients_.end(), -owners);
   stats.receivers = std::max(all - sound, sound);
   return stats;
 }
@@ -82,7 +83,7 @@ std::optional<ClientId> Broadcast::add(Channel channel) {
     ++clients_[std::size_t(channel)];
     client = hub_.add(channel);
   }
-  if (joined_) joined_();
+  if (joined_ && channel != Channel::owner) joined_();
   return client;
 }
 

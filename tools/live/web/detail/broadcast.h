@@ -14,6 +14,7 @@
 #include "tools/formats/media/live/live.h"
 #include "tools/live/web/detail/documents.h"
 #include "tools/live/web/detail/hub.h"
+#include "tools/live/web/peer_connections.h"
 
 struct lws;
 
@@ -40,13 +41,21 @@ class Broadcast : public std::enable_shared_from_this<Broadcast> {
   void forget(Channel channel);
   /// Does anybody get this channel now?
   bool wanted(Channel channel) const;
-  /// Receivers are those of a face or those of a sound, whichever are more.
+  /// Receivers are those of a face or those of a sound, whichever are more; owners are none.
   media::SendStats stats() const;
   /// Viewers get the queued messages and the end; new viewers are refused. `goes_away`: it is the
   /// server that ends.
   void end(bool goes_away = false);
   /// True: all have gone.
   bool wait_until_empty(Hub::Clock::time_point instant);
+
+  /// Who answers offers to `/whep`; null: nobody. Call before the server knows the broadcast.
+  void set_peers(std::shared_ptr<PeerConnections> peers) { peers_ = std::move(peers); }
+  const std::shared_ptr<PeerConnections>& peers() const { return peers_; }
+  /// Somebody is about to watch.
+  void expect() const {
+    if (joined_) joined_();
+  }
 
   // Of the server.
   int sample_rate() const { return sample_rate_; }
@@ -68,6 +77,7 @@ class Broadcast : public std::enable_shared_from_this<Broadcast> {
   const int sample_rate_;
   const Touched touched_;
   const std::function<void()> joined_;
+  std::shared_ptr<PeerConnections> peers_;
   mutable std::mutex mutex_;  // for what follows
   std::condition_variable changed_;
   Hub hub_;

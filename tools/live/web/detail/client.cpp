@@ -68,7 +68,8 @@ bool Client::ask(Connection& connection) {
   info.port = address_.port;
   // A server may not send us to machines that it cannot reach itself.
   info.ssl_connection = LCCSCF_HTTP_NO_FOLLOW_REDIRECT;
-  const std::string path = address_.path + (connection.sound ? "/audio" : "/face?as-sent");
+  std::string path = address_.path + (connection.sound ? "/audio" : "/face?as-sent");
+  if (!address_.query.empty()) path += (connection.sound ? "?" : "&") + address_.query;
   info.path = path.c_str();
   info.local_protocol_name = "animeme";
   info.ietf_version_or_minus_one = -1;

@@ -18,6 +18,7 @@ constexpr std::size_t kPiece = 16384;           // of a body, at once
 constexpr std::size_t kMostFromClient = 65536;  // bytes; clients have nothing to say
 
 Channel channel_of(const Session& session) {
+  if (session.resource == Resource::say) return Channel::owner;
   if (session.resource == Resource::face) return session.as_sent ? Channel::sent : Channel::face;
   if (session.resource != Resource::faps) return Channel::audio;
   return session.small ? Channel::planes : Channel::faps;
@@ -73,6 +74,7 @@ int Server::handle(lws* wsi, lws_callback_reasons reason, const char* in, std::s
       lws_callback_on_writable(wsi);
       return 0;
     case LWS_CALLBACK_RECEIVE:
+      if (sessions_[wsi].intake) return take_message(wsi, in, size);
       return (sessions_[wsi].received += size) > kMostFromClient ? -1 : 0;
     case LWS_CALLBACK_HTTP_BODY:
       return waits_for_peer_connections(wsi) ? whep_body(wsi, in, size) : take_body(wsi, in, size);
@@ -111,12 +113,13 @@ int Server::handle(lws* wsi, lws_callback_reasons reason, const char* in, std::s
 Server::Place Server::place_of(const std::string& path) const {
   const std::lock_guard lock(mutex_);
   auto found = broadcasts_.find("");
-  if (found != broadcasts_.end()) return {found->second, path, resource_of(path)};
+  if (found != broadcasts_.end()) return {found->second, path, resource_of(path), {}};
   std::size_t slash = path.rfind('/');
   for (; slash != std::string::npos && slash > 0; slash = path.rfind('/', slash - 1)) {
     found = broadcasts_.find(std::string_view(path).substr(0, slash));
     if (found == broadcasts_.end()) continue;
-    return {found->second, path.substr(slash), resource_of(path.substr(slash))};
+    return {found->second, path.substr(slash), resource_of(path.substr(slash)),
+            path.substr(0, slash)};
   }
   return {};
 }
@@ -126,6 +129,7 @@ bool Server::exists(const Place& place) const {
   if (!place.broadcast) return false;
   if (documents_.contains(place.path) || resource == Resource::info) return true;
   if (resource == Resource::face || resource == Resource::faps) return true;
+  if (resource == Resource::say) return intake_ != nullptr;
   return (resource == Resource::audio || resource == Resource::talk) &&
          place.broadcast->sample_rate() > 0;
 }
@@ -133,8 +137,23 @@ bool Server::exists(const Place& place) const {
 /// Why it is not answered, whatever it asks for; 0: it is.
 unsigned Server::objection(lws* wsi, const Request& request) {
   if (!limiter_.ask(wsi, ConnectionLimiter::Clock::now())) return 429;
-  if (request.host.empty()) return HTTP_STATUS_BAD_REQUEST;
+  if (request.host.empty() || request.blank_in_name) return HTTP_STATUS_BAD_REQUEST;
   return names_.contains(request.host) ? 0 : 421;
+}
+
+bool Server::may_watch(const Request& request, bool socket) const {
+  return !may_watch_ || may_watch_(head_of(request, socket));
+}
+
+/// Where not everybody may watch, what is the same for all presentations tells nothing of one.
+bool Server::is_open_document(const Request& request) const {
+  if (!may_watch_ || !request.is_read()) return false;
+  // /heads/NAME/...
+  const std::size_t name = request.path.find('/', 1);
+  if (name == std::string::npos) return false;
+  const std::size_t end = request.path.find('/', name + 1);
+  return end != std::string::npos && end > name + 1 &&
+         documents_.contains(request.path.substr(end));
 }
 
 /// The origin for which an answer is meant, too; empty: for that of the server alone.
@@ -179,8 +198,10 @@ int Server::transaction_over(lws* wsi) {
 }
 
 int Server::refuse(lws* wsi, const Request& request, unsigned status) {
-  if (!send_refusal(wsi, status, request.method != Request::Method::head, handler_ != nullptr))
+  if (!send_refusal(wsi, status, request.method != Request::Method::head, handler_ != nullptr,
+                    !request.is_read())) {
     return -1;
+  }
   // Whatever comes behind another method stays unread.
   return request.is_read() ? transaction_over(wsi) : -1;
 }
@@ -189,11 +210,24 @@ int Server::request(lws* wsi) {
   const Request request = request_of(wsi);
   const unsigned status = objection(wsi, request);
   if (status != 0) return refuse(wsi, request, status);
-  if (peer_connections_ && resource_of(request.path) == Resource::whep) return whep(wsi, request);
+  if (is_open_document(request)) {
+    leave(wsi);
+    const std::size_t end = request.path.find('/', request.path.find('/', 1) + 1);
+    const std::string path = request.path.substr(end);
+    return serve(wsi, request, {nullptr, path, resource_of(path)});
+  }
+  Place place = place_of(request.path);
+  const bool offers = request.method == Request::Method::post && request.path.ends_with("/whep");
+  if ((request.is_read() || offers) && !may_watch(request, false)) {
+    return refuse(wsi, request, HTTP_STATUS_FORBIDDEN);
+  }
+  if (place.resource == Resource::whep && place.broadcast->peers()) {
+    return whep(wsi, request, place);
+  }
   if (!request.is_read() && (!handler_ || request.verb.empty())) {
     return refuse(wsi, request, HTTP_STATUS_METHOD_NOT_ALLOWED);
   }
-  const Place place = request.is_read() ? place_of(request.path) : Place();
+  if (!request.is_read()) place = {};
   if (!exists(place)) {
     return handler_ ? begin_exchange(wsi, request) : refuse(wsi, request, HTTP_STATUS_NOT_FOUND);
   }
@@ -210,7 +244,8 @@ int Server::serve(lws* wsi, const Request& request, const Place& place) {
       resource == Resource::info ? place.broadcast->info() : documents_.at(place.path);
   const Document& document = *session.document;
   session.packed = !document.packed.empty() && takes_gzip(request.accept_encoding);
-  if (resource == Resource::page && peer_connections_) peer_connections_->expect();
+  const bool comes = resource == (may_watch_ ? Resource::info : Resource::page);
+  if (comes && place.broadcast && place.broadcast->peers()) place.broadcast->peers()->expect();
   Answer answer{.type = type_of(resource), .origin = shared_with(request)};
   answer.embedded = answer.origin == "*";
   answer.frames = frames_;
@@ -248,11 +283,15 @@ int Server::upgrade(lws* wsi) {
   const auto refused = [&](unsigned status) { return send_refusal(wsi, status, true), -1; };
   const unsigned status = objection(wsi, request);
   if (status != 0) return refused(status);
-  const Place place = place_of(request.path);
-  if (!is_socket(place.resource) || !exists(place)) return refused(HTTP_STATUS_NOT_FOUND);
   if (request.has_origin && !origin_allowed(request.origin, request.host, options_.allow_origins)) {
     return refused(HTTP_STATUS_FORBIDDEN);
   }
+  const Place place = place_of(request.path);
+  if (intake_ && resource_of(request.path.substr(request.path.rfind('/'))) == Resource::say) {
+    return open_intake(wsi, request, place);
+  }
+  if (!may_watch(request, true)) return refused(HTTP_STATUS_FORBIDDEN);
+  if (!is_socket(place.resource) || !exists(place)) return refused(HTTP_STATUS_NOT_FOUND);
   leave(wsi);
   Session& session = sessions_[wsi];
   session.resource = place.resource;
@@ -292,6 +331,12 @@ bool Server::send_message(lws* wsi, Session& session, const Message& message) {
 }
 
 int Server::write_message(lws* wsi, Session& session) {
+  if (!session.told.empty()) {
+    const std::string text = std::move(session.told.front());
+    session.told.pop_front();
+    lws_callback_on_writable(wsi);
+    return send_bytes(wsi, text.data(), text.size(), LWS_WRITE_TEXT) ? 0 : -1;
+  }
   const auto [message, more, over, goes_away] = session.broadcast->next(session.client);
   if (message && !send_message(wsi, session, *message)) return -1;
   if (!message && over) {
@@ -345,7 +390,12 @@ void Server::look_at_news() {
   }
   for (auto& [exchange, reply] : given) {
     if (exchange->wsi == nullptr) continue;
-    sessions_[exchange->wsi].reply = std::move(reply);
+    Session& session = sessions_[exchange->wsi];
+    if (exchange->socket) {
+      session.told.push_back(std::move(reply.body));
+    } else {
+      session.reply = std::move(reply);
+    }
     lws_callback_on_writable(exchange->wsi);
   }
 }
@@ -358,6 +408,7 @@ void Server::keep_looking() {
   };
   disconnect_overdue();
   look_around();
+  look_at_intakes();
   lws_sul_schedule(service_.context(), 0, &timer_.entry, look, kLookEvery);
 }
 
@@ -373,6 +424,7 @@ void Server::leave(lws* wsi) {
   if (found == sessions_.end()) return;
   Session& session = found->second;
   if (session.exchange) session.exchange->wsi = nullptr;
+  if (session.intake && !session.whole) session.intake->end(false);
   if (session.open) {
     session.broadcast->watching.erase(wsi);
     session.broadcast->remove(session.client, channel_of(session));

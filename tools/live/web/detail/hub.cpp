@@ -139,7 +139,8 @@ void Hub::push(Client& client, const MessagePtr& message) {
     dropped_ += std::int64_t(client.queue.size() - kept) + 1;
     client.queue.resize(kept);
     client.bytes = greeted ? 0 : client.queue.front()->bytes.size();
-    client.waits_for_entry = client.missed = true;
+    client.missed = true;
+    client.waits_for_entry = client.channel != Channel::owner;  // which has events alone
     return;
   }
   client.waits_for_entry = false;
@@ -154,7 +155,8 @@ void Hub::push(Client& client, const MessagePtr& message) {
 
 ClientId Hub::add(Channel channel) {
   const ClientId id = ++last_id_;
-  Client client{.channel = channel, .waits_for_entry = true, .taken = Clock::now()};
+  Client client{
+      .channel = channel, .waits_for_entry = channel != Channel::owner, .taken = Clock::now()};
   const Feed& feed = feeds_[std::size_t(feed_of(channel))];
   if (feed.hello) {
     client.queue.push_back(feed.hello);

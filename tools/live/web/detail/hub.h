@@ -15,9 +15,9 @@
 
 namespace animeme::web {
 
-// planes: /faps?binary; sent: /face?as-sent
-enum class Channel : std::uint8_t { face, faps, planes, audio, sent };
-inline constexpr std::size_t kChannels = 5;
+// planes: /faps?binary; sent: /face?as-sent; owner: /say
+enum class Channel : std::uint8_t { face, faps, planes, audio, sent, owner };
+inline constexpr std::size_t kChannels = 6;
 
 struct Message {
   std::vector<std::uint8_t> bytes;

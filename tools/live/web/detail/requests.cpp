@@ -16,9 +16,9 @@ std::string policy_of(const Answer& answer) {
   return std::string("default-src 'none'; script-src 'self'") +
          (answer.has_head ? " 'wasm-unsafe-eval'" : "") +
          "; style-src 'self'; connect-src 'self'; media-src 'self' blob:; img-src 'self' data: "
-         "blob:; "
-         "base-uri 'none'; form-action 'none'; frame-ancestors " +
-         std::string(answer.frames);
+         "blob:; " +
+         (answer.has_frames ? "frame-src 'self'; " : "") +
+         "base-uri 'none'; form-action 'none'; frame-ancestors " + std::string(answer.frames);
 }
 
 /// Value of a header, empty: absent or longer than 512 bytes.
@@ -26,6 +26,18 @@ std::string header_of(lws* wsi, lws_token_indexes token) {
   std::array<char, 513> text{};
   const int size = lws_hdr_copy(wsi, text.data(), int(text.size()), token);
   return size > 0 ? std::string(text.data(), std::size_t(size)) : std::string();
+}
+
+/// The query: libwebsockets has taken its parts apart.
+std::string query_of(lws* wsi) {
+  std::string query;
+  std::array<char, 513> part{};
+  for (int i = 0;
+       lws_hdr_copy_fragment(wsi, part.data(), int(part.size()), WSI_TOKEN_HTTP_URI_ARGS, i) > 0;
+       ++i) {
+    query += (i > 0 ? "&" : "") + std::string(part.data());
+  }
+  return query.size() <= 512 ? query : std::string();
 }
 
 class Header {
@@ -60,9 +72,9 @@ class Header {
 std::string_view sentence_of(unsigned status) {
   switch (status) {
     case HTTP_STATUS_BAD_REQUEST:
-      return "The request names no host.\n";
+      return "The request names no host, or a header has a blank in front of its colon.\n";
     case HTTP_STATUS_FORBIDDEN:
-      return "Pages of other servers need --allow-origin.\n";
+      return "Pages of other servers need --allow-origin, and viewers may need a ticket.\n";
     case HTTP_STATUS_METHOD_NOT_ALLOWED:
       return "There is GET and HEAD.\n";
     case HTTP_STATUS_REQ_ENTITY_TOO_LARGE:
@@ -97,6 +109,7 @@ Resource resource_of(const std::string& path) {
   if (path == "/faps") return Resource::faps;
   if (path == "/audio") return Resource::audio;
   if (path == "/whep" || path.starts_with("/whep/")) return Resource::whep;
+  if (path == "/say") return Resource::say;
   return Resource::none;
 }
 
@@ -119,7 +132,8 @@ const char* type_of(Resource resource) {
 }
 
 bool is_socket(Resource resource) {
-  return resource == Resource::face || resource == Resource::faps || resource == Resource::audio;
+  return resource == Resource::face || resource == Resource::faps || resource == Resource::audio ||
+         resource == Resource::say;
 }
 
 Request request_of(lws* wsi) {
@@ -133,7 +147,7 @@ Request request_of(lws* wsi) {
       {WSI_TOKEN_HEAD_URI, Method::head, "GET"},
       {WSI_TOKEN_POST_URI, Method::post, "POST"},
       {WSI_TOKEN_PUT_URI, Method::other, "PUT"},
-      {WSI_TOKEN_PATCH_URI, Method::patch, ""},
+      {WSI_TOKEN_PATCH_URI, Method::patch, "PATCH"},
       {WSI_TOKEN_DELETE_URI, Method::remove, "DELETE"},
       {WSI_TOKEN_OPTIONS_URI, Method::options, ""},
   };
@@ -149,6 +163,8 @@ Request request_of(lws* wsi) {
   request.has_length = !length.empty();
   if (lws_hdr_total_length(wsi, WSI_TOKEN_HTTP_TRANSFER_ENCODING) > 0) {
     request.body = -1;
+    request.chunked =
+        header_of(wsi, WSI_TOKEN_HTTP_TRANSFER_ENCODING) == "chunked" && length.empty();
   } else if (!length.empty()) {
     const char* end = length.data() + length.size();
     const auto read = std::from_chars(length.data(), end, request.body);
@@ -157,11 +173,16 @@ Request request_of(lws* wsi) {
   request.authorization = header_of(wsi, WSI_TOKEN_HTTP_AUTHORIZATION);
   request.has_origin = lws_hdr_total_length(wsi, WSI_TOKEN_ORIGIN) > 0;
   request.origin = header_of(wsi, WSI_TOKEN_ORIGIN);
-  request.query = header_of(wsi, WSI_TOKEN_HTTP_URI_ARGS);
+  request.query = query_of(wsi);
   request.host = header_of(wsi, WSI_TOKEN_HOST);
   request.accept_encoding = header_of(wsi, WSI_TOKEN_HTTP_ACCEPT_ENCODING);
   request.if_none_match = header_of(wsi, WSI_TOKEN_HTTP_IF_NONE_MATCH);
   request.content_type = header_of(wsi, WSI_TOKEN_HTTP_CONTENT_TYPE);
+  // RFC 9112, section 5.1. libwebsockets takes them for other headers; a proxy may not.
+  for (const std::string_view name : {"host :", "content-length :", "transfer-encoding :",
+                                      "authorization :", "origin :", "connection :", "upgrade :"}) {
+    request.blank_in_name |= lws_hdr_custom_length(wsi, name.data(), int(name.size())) >= 0;
+  }
   return request;
 }
 
@@ -180,6 +201,9 @@ bool send_header(lws* wsi, const Answer& answer) {
   } else if (answer.size != LWS_ILLEGAL_HTTP_CONTENT_LEN) {
     header.add_length(answer.size);
   } else {
+    header.add("connection:", "close");
+  }
+  if (answer.closes && answer.size != LWS_ILLEGAL_HTTP_CONTENT_LEN) {
     header.add("connection:", "close");
   }
   if (answer.packed) header.add("content-encoding:", "gzip");
@@ -210,11 +234,11 @@ bool send_header(lws* wsi, const Answer& answer) {
   return header.send();
 }
 
-bool send_refusal(lws* wsi, unsigned status, bool with_body, bool as_json) {
+bool send_refusal(lws* wsi, unsigned status, bool with_body, bool as_json, bool closes) {
   std::string text(sentence_of(status));
   if (as_json) text = "{\"error\":\"" + text.substr(0, text.size() - 1) + "\"}\n";
   const char* type = as_json ? "application/json" : "text/plain; charset=utf-8";
-  if (!send_header(wsi, {.status = status, .type = type, .size = text.size()})) {
+  if (!send_header(wsi, {.status = status, .type = type, .size = text.size(), .closes = closes})) {
     return false;
   }
   if (!with_body) return true;

@@ -25,7 +25,8 @@ enum class Resource : std::uint8_t {
   face,
   faps,
   audio,
-  whep
+  whep,
+  say
 };
 
 /// `path`: as in the request line, without the query.
@@ -41,11 +42,14 @@ struct Request {
   Method method = Method::other;
   bool is_read() const { return method == Method::get || method == Method::head; }
   bool has_origin = false;
-  std::string verb;  ///< "GET", also for HEAD; "POST", "PUT", "DELETE"; empty: another method
+  /// "GET", also for HEAD; "POST", "PUT", "PATCH", "DELETE"; empty: another method
+  std::string verb;
   bool has_length = false;  ///< it says how many bytes are to follow
   std::int64_t body = 0;    ///< in bytes; -1: unknown
   std::string authorization;
   std::string path, query, host, origin, accept_encoding, if_none_match, content_type;
+  bool chunked = false;        ///< the body comes in chunks
+  bool blank_in_name = false;  ///< a header has a blank in front of its colon
 
   /// Is `name` in the query, as itself or with a value but 0?
   bool asks(std::string_view name) const;
@@ -65,17 +69,21 @@ struct Answer {
   std::string origin;      ///< pages there may read it; "*": all
   bool embedded = false;   ///< pages elsewhere may show it without reading it
   std::string_view frames =
-      "'self'";           ///< origins of pages that may have it in a frame, a blank between them
-  bool has_head = false;  ///< a page that shows a head
-  std::string location;   ///< of what was made
-  const char* allow = "GET, HEAD";  ///< 405, 204: what there is
+      "'self'";             ///< origins of pages that may have it in a frame, a blank between them
+  bool has_head = false;    ///< a page that shows a head
+  bool has_frames = false;  ///< a page that shows others of this server
+  bool closes = false;      ///< the connection ends behind this
+  std::string location;     ///< of what was made
+  std::string allow = "GET, HEAD";  ///< 405, 204: what there is
   int retry_after = 0;              ///< 429, 503: seconds; 0: not said
 };
 
 /// False: it could not be sent.
 bool send_header(lws* wsi, const Answer& answer);
-/// Answers with a status and a sentence. The connection is to be closed if this is false.
-bool send_refusal(lws* wsi, unsigned status, bool with_body, bool as_json = false);
+/// Answers with a status and a sentence. The connection is to be closed if this is false; `closes`
+/// says that it will be in any case.
+bool send_refusal(lws* wsi, unsigned status, bool with_body, bool as_json = false,
+                  bool closes = false);
 
 /// Who is at the other end of a socket: an address of IPv4 or the network of one of IPv6, whose
 /// owner has all of it, as bytes. Empty: not known.

@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include <chrono>
+#include <system_error>
 #include <utility>
 
 #include "tools/live/web/detail/page.h"
@@ -63,6 +64,9 @@ Server::Server(const WebAddress& address, const ServerOptions& options, ServerHa
     : options_(options.web),
       most_body_(options.most_body),
       handler_(std::move(handler)),
+      intake_(options.intake),
+      most_message_(options.most_message),
+      may_watch_(options.may_watch),
       names_(address, options_.host_names),
       frames_(frames_of(options_)),
       documents_(documents_of(options_)),
@@ -70,8 +74,32 @@ Server::Server(const WebAddress& address, const ServerOptions& options, ServerHa
   timer_.server = this;
 }
 
+// Each of them says goodbye three times, as that may get lost: all at once.
+void Server::finish_peers(bool over) {
+  std::vector<std::shared_ptr<PeerConnections>> all;
+  {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [path, broadcast] : broadcasts_) {
+      if (broadcast->peers()) all.push_back(broadcast->peers());
+    }
+  }
+  std::vector<std::thread> goodbyes;
+  for (const auto& peers : all) {
+    if (peers->busy() == 0) {
+      peers->finish(over);
+      continue;
+    }
+    try {
+      goodbyes.emplace_back([peers, over] { peers->finish(over); });
+    } catch (const std::system_error&) {
+      peers->finish(over);
+    }
+  }
+  for (std::thread& goodbye : goodbyes) goodbye.join();
+}
+
 void Server::stop() {
-  if (peer_connections_) peer_connections_->finish();  // it answers no more
+  finish_peers(true);  // they answer no more
   {
     const std::lock_guard lock(answers_->mutex);
     answers_->service = nullptr;
@@ -137,7 +165,7 @@ bool Server::open(const std::string& path, const std::shared_ptr<Broadcast>& bro
   return !finishing_ && broadcasts_.try_emplace(path, broadcast).second;
 }
 
-void Server::close(const std::string& path) {
+void Server::close(const std::string& path, bool comes_back) {
   std::shared_ptr<Broadcast> broadcast;
   {
     const std::lock_guard lock(mutex_);
@@ -146,7 +174,7 @@ void Server::close(const std::string& path) {
     broadcast = std::move(found->second);
     broadcasts_.erase(found);
   }
-  broadcast->end();
+  broadcast->end(comes_back);
 }
 
 void Server::finish(bool goes_away) {
@@ -157,6 +185,7 @@ void Server::finish(bool goes_away) {
     for (const auto& [path, broadcast] : broadcasts_) broadcasts.push_back(broadcast);
   }
   for (const auto& broadcast : broadcasts) broadcast->end(goes_away);
+  finish_peers(!goes_away);
   const auto patience = Hub::Clock::now() + kGoodbye;
   for (const auto& broadcast : broadcasts) broadcast->wait_until_empty(patience);
   stop();

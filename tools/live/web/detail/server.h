@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -13,6 +14,7 @@
 #include "fap/result.h"
 #include "tools/live/web/detail/address.h"
 #include "tools/live/web/detail/broadcast.h"
+#include "tools/live/web/detail/chunk_reader.h"
 #include "tools/live/web/detail/connection_limiter.h"
 #include "tools/live/web/detail/headers.h"
 #include "tools/live/web/detail/requests.h"
@@ -28,6 +30,7 @@ struct Exchange {
   ServerRequest request;
   bool with_body = true;  // not HEAD
   bool last = false;      // of its connection
+  bool socket = false;    // answers are messages
 };
 
 /// What was answered, until the server looks. Answers may come when that has gone.
@@ -56,7 +59,19 @@ struct Session {
   std::string upload, origin;
   std::uint64_t ticket = 0;
   std::optional<PeerAnswer> answer;
+  std::string path;  // of its broadcast
+  // Of /say: who takes what comes, and what waits for the client alone.
+  std::shared_ptr<Intake> intake;
+  std::string message;  // that has begun
+  std::deque<std::string> told;
+  std::optional<ChunkReader> chunks;  // of a body in chunks
+  bool whole = false;                 // the body is complete
+  bool paused = false;                // nothing is read
+  Hub::Clock::time_point heard = Hub::Clock::now();
 };
+
+/// What the program around the server is told of a request, without its body.
+ServerRequest head_of(const Request& request, bool socket);
 
 class Server {
  public:
@@ -74,18 +89,13 @@ class Server {
   /// comes before waits.
   void serve() { service_.run(); }
 
-  /// Who answers `/whep`; before serve(). nullptr: nobody, there is none.
-  void set_peer_connections(std::shared_ptr<PeerConnections> peer_connections) {
-    peer_connections_ = std::move(peer_connections);
-  }
-
   // All of these may be called from any thread.
   /// A broadcast without a path yet. `joined` may be empty.
   std::shared_ptr<Broadcast> make_broadcast(int sample_rate, std::function<void()> joined);
   /// Its resources lie below `path`, "" for all paths. False: there is one already.
   bool open(const std::string& path, const std::shared_ptr<Broadcast>& broadcast);
-  /// Removes it; its viewers get the queued messages and the end.
-  void close(const std::string& path);
+  /// Removes it; its viewers get the queued messages and the end. `comes_back`: with 1001.
+  void close(const std::string& path, bool comes_back = false);
   int viewers() const { return viewers_; }
 
   /// Lets the clients have what waits for them, for two seconds at most, and says goodbye.
@@ -95,16 +105,26 @@ class Server {
  private:
   Server(const WebAddress& address, const ServerOptions& options, ServerHandler handler);
   void stop();
+  void finish_peers(bool over);
   static int callback(lws* wsi, lws_callback_reasons reason, void* user, void* in, size_t size);
   int handle(lws* wsi, lws_callback_reasons reason, const char* in, std::size_t size);
   struct Place {
     std::shared_ptr<Broadcast> broadcast;
     std::string path;  // below it
     Resource resource = Resource::none;
+    std::string above = {};  // its own path
   };
   Place place_of(const std::string& path) const;
   bool exists(const Place& place) const;
   unsigned objection(lws* wsi, const Request& request);
+  bool may_watch(const Request& request, bool socket) const;
+  bool is_open_document(const Request& request) const;
+  bool begin_intake(lws* wsi, const Request& request);
+  int take_block(lws* wsi, Session& session, const char* bytes, std::size_t size);
+  int open_intake(lws* wsi, const Request& request, const Place& place);
+  int take_message(lws* wsi, const char* bytes, std::size_t size);
+  void look_at_intakes();
+  ServerAnswer answer_to(std::shared_ptr<Exchange> exchange) const;
   std::string shared_with(const Request& request) const;
   bool may_deflate(lws* wsi) const;
   bool admit(lws* wsi, Session& session);
@@ -118,7 +138,7 @@ class Server {
   int talk(lws* wsi, const Request& request, const Place& place);
   int upgrade(lws* wsi);
   bool waits_for_peer_connections(lws* wsi) const;
-  int whep(lws* wsi, const Request& request);
+  int whep(lws* wsi, const Request& request, const Place& place);
   int whep_body(lws* wsi, const char* bytes, std::size_t size);
   int whep_offer(lws* wsi);
   int whep_answer(lws* wsi, Session& session);
@@ -138,10 +158,12 @@ class Server {
   const WebOptions options_;
   const std::size_t most_body_;
   const ServerHandler handler_;
+  const IntakeHandler intake_;
+  const std::size_t most_message_;
+  const std::function<bool(const ServerRequest&)> may_watch_;
   const OwnNames names_;
   const std::string frames_;                      // where the page may be in a frame
   std::map<std::string, DocumentPtr> documents_;  // by path, but for info.json
-  std::shared_ptr<PeerConnections> peer_connections_;
   Service service_;
   int port_ = 0;
   const std::shared_ptr<Answers> answers_ = std::make_shared<Answers>();

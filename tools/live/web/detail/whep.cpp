@@ -34,7 +34,8 @@ int Server::whep_reply(lws* wsi, Answer answer, const std::string& text) {
   return transaction_over(wsi);
 }
 
-int Server::whep(lws* wsi, const Request& request) {
+int Server::whep(lws* wsi, const Request& request, const Place& place) {
+  PeerConnections& peers = *place.broadcast->peers();
   const std::string shared = shared_with(request);
   const auto reply = [&](unsigned status, const char* text) {
     const int kept = whep_reply(wsi, {.status = status, .origin = shared}, text);
@@ -43,10 +44,10 @@ int Server::whep(lws* wsi, const Request& request) {
   if (request.has_origin && !origin_allowed(request.origin, request.host, options_.allow_origins)) {
     return reply(HTTP_STATUS_FORBIDDEN, "Pages of other servers need --allow-origin.\n");
   }
-  const std::string id = request.path.substr(std::min<std::size_t>(request.path.size(), 6));
+  const std::string id = place.path.substr(std::min<std::size_t>(place.path.size(), 6));
   if (request.method == Method::options) return reply(HTTP_STATUS_NO_CONTENT, "");
   if (request.method == Method::remove && !id.empty()) {
-    if (peer_connections_->end(id)) return reply(HTTP_STATUS_OK, "");
+    if (peers.end(id)) return reply(HTTP_STATUS_OK, "");
     return reply(HTTP_STATUS_NOT_FOUND, "There is no such connection.\n");
   }
   // Candidates come with offer and answer, and a connection that broke is made anew: no PATCH.
@@ -56,13 +57,15 @@ int Server::whep(lws* wsi, const Request& request) {
   if (!request.content_type.starts_with("application/sdp")) {
     return reply(HTTP_STATUS_UNSUPPORTED_MEDIA_TYPE, "An offer is application/sdp.\n");
   }
-  if (limiter_.viewers() + peer_connections_->stats().receivers >= options_.max_clients) {
+  if (limiter_.viewers() + peers.busy() >= options_.max_clients) {
     return reply(HTTP_STATUS_SERVICE_UNAVAILABLE, "All places are taken (--max-clients).\n");
   }
   leave(wsi);
   Session& session = sessions_[wsi];
   session.resource = Resource::whep;
   session.origin = shared;
+  session.broadcast = place.broadcast;
+  session.path = place.above;
   return 0;  // the body comes
 }
 
@@ -81,14 +84,16 @@ int Server::whep_body(lws* wsi, const char* bytes, std::size_t size) {
 int Server::whep_offer(lws* wsi) {
   const auto session = sessions_.find(wsi);
   const std::uint64_t ticket = session->second.ticket = ++tickets_;
-  peer_connections_->offer(std::move(session->second.upload), peer_of(lws_get_socket_fd(wsi)),
-                           [this, ticket](PeerAnswer answer) {
-                             {
-                               const std::lock_guard lock(mutex_);
-                               peer_answers_[ticket] = std::move(answer);
-                             }
-                             service_.wake();
-                           });
+  session->second.broadcast->peers()->offer(std::move(session->second.upload),
+                                            peer_of(lws_get_socket_fd(wsi)),
+                                            [this, ticket](PeerAnswer answer) {
+                                              {
+                                                const std::lock_guard lock(mutex_);
+                                                peer_answers_[ticket] = std::move(answer);
+                                              }
+                                              service_.wake();
+                                            });
+  session->second.broadcast->expect();
   return 0;
 }
 
@@ -115,7 +120,7 @@ int Server::whep_answer(lws* wsi, Session& session) {
   Answer answer{.status = given.status, .origin = session.origin};
   if (given.status == kCreated) {
     answer.type = "application/sdp";
-    answer.location = "/whep/" + given.id;
+    answer.location = session.path + "/whep/" + given.id;
   }
   return whep_reply(wsi, std::move(answer), given.text);
 }

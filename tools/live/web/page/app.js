@@ -157,6 +157,9 @@
     requestAnimationFrame(tick);
   }
   requestAnimationFrame(tick);
+  for (const link of document.querySelectorAll('footer a')) {
+    link.href = Live.address(link.getAttribute('href'));
+  }
   showSound();
   begin();
 })();

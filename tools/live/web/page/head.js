@@ -45,9 +45,10 @@ try {
     return readModel(new Uint8Array(await answer.arrayBuffer()));
   };
   const {asked} = animeme;
-  const {heads = []} = await (await fetch('info.json', {cache: 'no-store'})).json();
+  const info = await fetch(Live.address('info.json'), {cache: 'no-store'});
+  const {heads = [], head} = info.ok ? await info.json() : {};
   const path = (which) => (which > 0 ? `heads/${which}.bin` : 'head.bin');
-  const first = Math.max(0, heads.indexOf(asked.get('head')));
+  const first = Math.max(0, heads.indexOf(asked.get('head') ?? head));
   let model = await load(path(first));
   const canvas = document.createElement('canvas');
   canvas.id = 'head';

@@ -12,7 +12,19 @@ const Live = (() => {
   const kStep = 200;       // milliseconds
   const kRetry = [500, 1000, 2000, 4000];
 
-  const socketAddress = (path) => new URL(path, location.href).href.replace(/^http/, 'ws');
+  // Of what belongs to this presentation: the ticket of the page is that of all of it.
+  const ticket = new URLSearchParams(location.search).get('ticket');
+  const address = (path) => {
+    const whole = new URL(path, location.href);
+    if (ticket) whole.searchParams.set('ticket', ticket);
+    return whole.href;
+  };
+  const socketAddress = (path) => address(path).replace(/^http/, 'ws');
+  const describe = async () => {
+    const answer = await fetch(address('info.json'), {cache: 'no-store'});
+    if (!answer.ok) throw new Error(`info.json: ${answer.status}`);
+    return answer.json();
+  };
   const wall = () => performance.now() / 1000;
 
   class Session {
@@ -32,7 +44,7 @@ const Live = (() => {
       this.target = kTarget;
       this.events.state('connecting', 'connecting');
       try {
-        this.info = await (await fetch('info.json', {cache: 'no-store'})).json();
+        this.info = await describe();
       } catch {
         return this.lost();
       }
@@ -275,5 +287,5 @@ const Live = (() => {
       return found;
     }
   }
-  return {Session};
+  return {Session, address, describe};
 })();

@@ -24,7 +24,7 @@ const Rtc = (() => {
       this.ended = this.soundless = false;
       this.events.state('connecting', 'connecting');
       try {
-        this.info = await (await fetch('info.json', {cache: 'no-store'})).json();
+        this.info = await Live.describe();
       } catch {
         return this.lost();
       }
@@ -65,7 +65,7 @@ const Rtc = (() => {
       const peer = this.peer;
       if (this.info.audio) this.hear();  // while the click counts
       await this.offered;
-      const response = await fetch('whep', {
+      const response = await fetch(Live.address('whep'), {
         method: 'POST', headers: {'Content-Type': 'application/sdp'}, body: peer.localDescription.sdp,
         signal: AbortSignal.timeout(kAnswer),
       });
