@@ -6,7 +6,7 @@
 ///     while (!stopped) (*server)->look();  // once a second
 ///     (*server)->finish();
 ///
-/// tools/live/serve/README.md documents the requests.
+/// tools/live/serve/requests.md documents the requests.
 #pragma once
 
 #include <atomic>
