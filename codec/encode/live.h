@@ -51,6 +51,11 @@ struct LiveOptions {
   PlaneStartCodes plane_start_codes = PlaneStartCodes::all;
   bool old_codes = false;  ///< plane start codes of the 1999 edition
   bool verify = true;      ///< decode every unit again and compare
+  /// FAPs of lids, eyes, brows, cheeks, nose and ears on the right side that have equalled those of
+  /// the left side in all frames so far are not sent: receivers mirror them (mask type 2,
+  /// codec/bitstream.md, section 3.1), and reconstruction() does not have them. With the first
+  /// frame in which one differs an intra plane sends it, and from there on all planes.
+  bool mirror = false;
   /// > 0: each frame is coded so many seconds (rounded to whole frames) after it was written. Intra
   /// planes then know what follows and get the tightest ranges, as of encode() with live_options();
   /// with a shorter delay than the distance of intra planes only as far as it reaches.

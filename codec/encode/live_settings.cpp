@@ -1,5 +1,7 @@
 #include "codec/encode/live_settings_internal.h"
 
+#include <bitset>
+
 #include "codec/syntax/quantise_internal.h"
 #include "codec/syntax/settings_internal.h"
 #include "codec/syntax/state_internal.h"
@@ -44,6 +46,38 @@ void set_intra_range(Settings& settings, std::size_t number, std::int64_t level,
   settings.range[kIntraMin][number] = std::uint8_t(std::min(down + wider - more, kMaxRange));
 }
 
+// Groups whose FAPs follow the other side and nothing else: not jaw, lips, tongue and head.
+bool has_sides(int group) {
+  constexpr std::array kGroups = {3, 4, 5, 9, 10};
+  return std::find(kGroups.begin(), kGroups.end(), group) != kGroups.end();
+}
+
+// FAPs that receivers mirror. Notes which ones differ from their other side.
+fap::Mask mirrored(HeldFrame& held) {
+  fap::Mask equal;
+  std::bitset<fap::kGroupCount> unlike;  // a FAP would be mirrored that nobody gives
+  for (const fap::FapInfo& fap : fap::kFaps) {
+    const auto own = std::size_t(fap.number), other = std::size_t(fap.mirror);
+    if (other == 0 || !has_sides(fap.group) || !held.occurred[other]) continue;
+    if (!held.occurred[own]) unlike.set(std::size_t(fap.group - 1));
+    if (own < other) continue;
+    if (held.face.value[own] != held.face.value[other]) held.differs.set(own);
+    equal[own] = held.occurred[own] && !held.differs[own];
+  }
+  for (const fap::FapInfo& fap : fap::kFaps) {
+    if (unlike[std::size_t(fap.group - 1)]) equal.reset(std::size_t(fap.number));
+  }
+  return equal;
+}
+
+std::bitset<fap::kGroupCount> groups_of(const fap::Mask& faps) {
+  std::bitset<fap::kGroupCount> groups;
+  for (const fap::FapInfo& fap : fap::kFaps) {
+    if (faps[std::size_t(fap.number)]) groups.set(std::size_t(fap.group - 1));
+  }
+  return groups;
+}
+
 // By how much so many detours widen the parameter whose turn this is.
 int wider(const HeldFrame& held, std::size_t turn, int detour) {
   const std::size_t coded = held.low_level_count() + held.body_count();
@@ -56,9 +90,9 @@ void HeldFrame::take_in(const fap::Frame& frame, const BodyFrame* given_body,
                         const LiveOptions& options) {
   fap::Mask mask = frame.mask;
   if (options.faps) mask &= *options.faps;
-  face.mask |= mask;
-  if (options.faps) face.mask = *options.faps;
-  face.mask.reset(0);  // no FAP
+  occurred |= mask;
+  if (options.faps) occurred = *options.faps;
+  occurred.reset(0);  // no FAP
   if (mask[1]) face.viseme = frame.viseme;
   if (mask[2]) face.expression = frame.expression;
   keep_legal(face.viseme, face.expression, options.fap_quant);
@@ -67,6 +101,8 @@ void HeldFrame::take_in(const fap::Frame& frame, const BodyFrame* given_body,
   for (std::size_t fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
     if (mask[fap]) face.value[fap] = frame.value[fap];
   }
+  face.mask = occurred;
+  if (options.mirror) face.mask &= ~mirrored(*this);
   if (given_body == nullptr) return;
   has_body = true;
   body.mask |= given_body->mask;
@@ -174,7 +210,7 @@ FaceSettings settle_face(const HeldFrame& held, const Motion& motion, const Live
   face.fap_quant = options.fap_quant;
   face.send_range = {true, true, true, true};
   face.mask = held.face.mask;
-  set_mask_types(face);
+  set_mask_types(face, groups_of(held.occurred & ~held.face.mask));
   std::size_t turn = held.low_level_count();
   for (std::size_t fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
     if (!face.mask[fap]) continue;

@@ -15,9 +15,11 @@ namespace animeme::fba::internal {
 /// What was given so far, held where frames leave something out. Masks: what has occurred, or the
 /// FAPs that the options name.
 struct HeldFrame {
-  fap::Frame face;
+  fap::Frame face;  // mask: what is coded
   BodyFrame body;
   bool has_body = false;
+  fap::Mask occurred;  // FAPs
+  fap::Mask differs;   // FAPs of the right side that are not always those of the left
 
   /// FAP 1 and 2 have been checked. `given_body` may be null.
   void take_in(const fap::Frame& frame, const BodyFrame* given_body, const LiveOptions& options);

@@ -299,8 +299,10 @@ FaceMoment Behaviour::Impl::next() {
       m.middle_brow[side] = amount * brow.middle[side];
       m.outer_brow[side] = amount * brow.outer[side];
       m.squeeze[side] = amount * brow.squeeze[side];
-      m.upper_lid[side] -= kLidOfBrow * std::max(0.0, m.middle_brow[side]);
     }
+    // Lids move together, so that decoders may mirror them.
+    const double raised = 0.5 * (m.middle_brow[0] + m.middle_brow[1]);
+    for (double& lid : m.upper_lid) lid -= kLidOfBrow * std::max(0.0, raised);
     m.cheek = amount * brow.cheek;
     m.nostril = in_steps(kNostril * amount * head.breath(), kNostrilStep);
     for (double& lid : m.lower_lid) lid += kLidOfCheek * m.cheek;

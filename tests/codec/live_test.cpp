@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "codec/decode/decoder.h"
+#include "codec/decode/fill.h"
+#include "fap/tables.h"
 #include "tests/support/random_clip.h"
 
 namespace animeme {
@@ -139,6 +141,71 @@ TEST(LiveEncoder, ANewFapBringsAnIntraPlane) {
   const Sent fixed = send(clip, {.intra_seconds = 0, .faps = fap::Mask().set(3).set(4)});
   EXPECT_FALSE(fixed.intra[20]);
   EXPECT_EQ(fixed.frames[25].mask, fap::Mask().set(3).set(4));
+}
+
+// Lids, brows and gaze that move alike up to frame 60, then one brow alone; lips never follow.
+fap::Sequence mirrored_clip(int frames) {
+  test::Random random(4);
+  fap::Sequence clip;
+  fap::Frame frame;
+  for (int i = 0; i < frames; ++i) {
+    frame.number = i;
+    for (const int fap : {3, 8, 19, 21, 25, 31, 61}) {
+      const int value = frame.value[std::size_t(fap)] + random.range(-40, 40);
+      frame.set(fap, value);
+      if (const int other = fap::info(fap).mirror; other != 0) frame.set(other, value);
+    }
+    frame.set(23, random.range(-9000, 9000));
+    frame.set(24, random.range(-9000, 9000));
+    if (i >= 60) frame.set(32, frame.value[31] + 50);
+    clip.frames.push_back(frame);
+  }
+  return clip;
+}
+
+TEST(LiveEncoder, MirrorsWhatIsEqualAsLongAsItIs) {
+  const fap::Sequence clip = mirrored_clip(120);
+  fba::LiveOptions options{.intra_seconds = 1};
+  const Sent both = send(clip, options);
+  options.mirror = true;
+  const Sent sent = send(clip, options);
+  expect_decodes(sent, 0);
+  EXPECT_FALSE(sent.frames[59].mask[32]);
+  EXPECT_TRUE(sent.frames[60].mask[32]);
+  EXPECT_TRUE(sent.intra[60]);
+  for (const std::size_t fap : {9, 24}) EXPECT_TRUE(sent.frames[119].mask[fap]) << fap;
+  for (const std::size_t fap : {20, 22, 26, 62}) EXPECT_FALSE(sent.frames[119].mask[fap]) << fap;
+  EXPECT_LT(join(sent, 0).size(), join(both, 0).size() * 9 / 10);
+  // Receivers that join at any intra plane show what others would.
+  for (std::size_t from = 0; from < sent.frames.size(); ++from) {
+    if (!sent.intra[from]) continue;
+    const auto decoded = fba::decode(join(sent, from));
+    ASSERT_TRUE(decoded);
+    const auto shown = fba::fill(*decoded);
+    ASSERT_TRUE(shown);
+    for (std::size_t i = 0; i < shown->frames.size(); ++i) {
+      for (const auto& [fap, other] : {std::pair(20, 19), {22, 21}, {26, 25}, {62, 61}}) {
+        EXPECT_EQ(shown->frames[i].value[std::size_t(fap)],
+                  sent.frames[from + i].value[std::size_t(other)]);
+      }
+      const std::size_t brow = from + i < 60 ? 31 : 32;
+      EXPECT_EQ(shown->frames[i].value[32], sent.frames[from + i].value[brow]);
+    }
+  }
+}
+
+// FAP 36 never occurs: mirrored, it would move.
+TEST(LiveEncoder, NothingIsMirroredThatNobodyGave) {
+  fap::Sequence clip = mirrored_clip(30);
+  for (fap::Frame& frame : clip.frames) frame.set(35, int(frame.number) * 10);
+  fba::LiveOptions options;
+  options.mirror = true;
+  const Sent sent = send(clip, options);
+  EXPECT_TRUE(sent.frames[20].mask[32]);
+  EXPECT_FALSE(sent.frames[20].mask[20]);
+  const auto shown = fba::fill(*fba::decode(join(sent, 0)));
+  ASSERT_TRUE(shown);
+  EXPECT_EQ(shown->frames[20].value[36], 0);
 }
 
 TEST(LiveEncoder, GivenRangesAreUsed) {

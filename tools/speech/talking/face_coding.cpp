@@ -49,6 +49,7 @@ fba::LiveOptions coding_of_face(const dam::Model& model, const TalkingFace& face
   // All FAPs that occur: those of a mood join, with an intra plane, when it is first shown. At rest
   // they would cost a third of the stream.
   coding.ranges = ranges_of_face(model, fap_quant, face);
+  coding.mirror = true;  // most of the time lids, eyes, cheeks and nose move alike
   return coding;
 }
 
