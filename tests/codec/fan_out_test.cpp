@@ -216,8 +216,9 @@ TEST(FanOut, WhatCannotBeDecodedIsPassedOn) {
   const auto units = live_units(6, 60);
   fba::FanOut fan;
   EXPECT_FALSE(fan.ready());
-  const auto predictive = std::ranges::find_if(
-      units, [](const Bytes& unit) { return !fba::read_plane_header(unit)->intra; });
+  const auto predictive = std::find_if(units.begin(), units.end(), [](const Bytes& unit) {
+    return !fba::read_plane_header(unit)->intra;
+  });
   ASSERT_NE(predictive, units.end());
   fan.push(*predictive);
   EXPECT_FALSE(fan.ready());

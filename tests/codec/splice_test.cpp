@@ -212,9 +212,9 @@ TEST(Splicer, CopiesReferenceStreamsByteForByteAndCutsThem) {
     const std::int64_t end = length(*ours);
     const Spliced whole = splice({{&*ours, 0, end}}, fba::PlaneStartCodes::none);
     // Planes without face and body get lost where a start code follows, so they get a face.
-    const auto nothing = std::ranges::count_if(ours->planes, [](const fba::Plane& plane) {
-      return plane.object_mask == fba::ObjectMask::nothing;
-    });
+    const auto nothing = std::count_if(
+        ours->planes.begin(), ours->planes.end(),
+        [](const fba::Plane& plane) { return plane.object_mask == fba::ObjectMask::nothing; });
     EXPECT_EQ(whole.report.recoded == 0, nothing == 0);
     if (nothing > 0) continue;
     const fba::DecodedStream copy = decoded(whole.stream);

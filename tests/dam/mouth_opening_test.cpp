@@ -243,7 +243,8 @@ TEST(MouthOpening, AModelSaysWhatItLearnedUnlessToldOtherwise) {
   EXPECT_EQ(read_model(write_model(own))->articulation, 0);
   EXPECT_EQ(write_model(own).size() + 8, write_model(model()).size());
   const auto bytes = builtin_model_bytes();
-  EXPECT_TRUE(std::ranges::equal(write_model(own), bytes));
+  const auto written = write_model(own);
+  EXPECT_TRUE(std::equal(written.begin(), written.end(), bytes.begin(), bytes.end()));
   own.articulation = 2.5;
   EXPECT_FALSE(validate(own));
 }
