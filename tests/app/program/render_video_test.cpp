@@ -134,5 +134,69 @@ TEST(RenderVideo, WhatCannotBeIsSaid) {
   EXPECT_EQ(preview.exit_code, 2);
 }
 
+// Without a background a video has a second picture of alpha in each block (Matroska:
+// BlockAdditions, 75 A1, and the tag ALPHA_MODE), and pictures have alpha.
+TEST(RenderVideo, Transparent) {
+  const TempDir dir;
+  write_talk(dir);
+  const auto out = animeme({"render", dir / "talk.fap", "--size", "96x96", "--background", "none",
+                            "-o", dir / "talk.webm"});
+  if (lacks_encoder(out)) GTEST_SKIP() << out.err;
+  ASSERT_EQ(out.exit_code, 0) << out.err;
+  const std::string video = test::slurp(dir / "talk.webm");
+  std::size_t beside = 0;
+  for (std::size_t at = video.find("\x75\xA1"); at != std::string::npos;
+       at = video.find("\x75\xA1", at + 1))
+    ++beside;
+  EXPECT_GE(beside, 10u);
+  EXPECT_THAT(video, HasSubstr("ALPHA_MODE"));
+
+  const auto frames = animeme({"render", dir / "talk.fap", "--size", "64x64", "--background",
+                               "none", "-o", dir / "f_%03d.png"});
+  ASSERT_EQ(frames.exit_code, 0) << frames.err;
+  EXPECT_THAT(frames.err, HasSubstr("10 pictures"));
+  for (const char* name : {"f_001.png", "f_010.png"}) {
+    const std::string png = test::slurp(dir / name);
+    ASSERT_GT(png.size(), 100u) << name;
+    EXPECT_EQ(png[25], 6) << "RGBA";
+  }
+  EXPECT_EQ(test::slurp(dir / "f_011.png"), "");
+
+  for (const char* name : {"talk.mp4", "talk.jpg"}) {
+    const auto none =
+        animeme({"render", dir / "talk.fap", "--background", "none", "-o", dir / name});
+    EXPECT_EQ(none.exit_code, 2) << name;
+    EXPECT_THAT(none.err, HasSubstr("transparency"));
+  }
+  const auto odd =
+      animeme({"render", dir / "talk.fap", "--background", "whit", "-o", dir / "x.mp4"});
+  EXPECT_EQ(odd.exit_code, 2);
+  EXPECT_THAT(odd.err, HasSubstr("is no background"));
+}
+
+TEST(RenderVideo, Captions) {
+  const TempDir dir;
+  write_talk(dir);
+  spill(dir / "words.tsv",
+        "start_s\tend_s\tphone\tword\n0.1\t0.5\tHH\thello\n0.5\t0.9\tW\tworld\n");
+  const auto rendered = [&](const char* name, const std::vector<std::string>& more) {
+    std::vector<std::string> line = {"render", dir / "talk.fap", "--size", "128x128",
+                                     "-o",     dir / name};
+    line.insert(line.end(), more.begin(), more.end());
+    return animeme(line);
+  };
+  const auto with = rendered("a_%d.png", {"--captions", "--script", dir / "words.tsv"});
+  if (with.exit_code != 0 && with.err.find("SVG") != std::string::npos) GTEST_SKIP() << with.err;
+  ASSERT_EQ(with.exit_code, 0) << with.err;
+  ASSERT_EQ(rendered("b_%d.png", {"--script", dir / "words.tsv"}).exit_code, 0);
+  EXPECT_NE(test::slurp(dir / "a_3.png"), test::slurp(dir / "b_3.png"));
+  const auto unknown = rendered("c.mp4", {"--captions"});
+  EXPECT_NE(unknown.exit_code, 0);
+  EXPECT_THAT(unknown.err, HasSubstr("--script"));
+  EXPECT_EQ(
+      rendered("d.png", {"--captions", "--time", "0.5", "--script", dir / "words.tsv"}).exit_code,
+      2);
+}
+
 }  // namespace render_video_test
 }  // namespace animeme

@@ -39,7 +39,7 @@ const std::uint8_t* pixel(const Image& image, int x, int y) {
   return &image.rgba[std::size_t(y * image.width + x) * 4];
 }
 
-constexpr render::RenderOptions kBlack{
+const render::RenderOptions kBlack{
     .width = 101, .height = 67, .threads = 1, .background_top = 0, .background_bottom = 0};
 
 TEST(Raster, EmptySceneIsTheBackground) {
@@ -54,6 +54,63 @@ TEST(Raster, EmptySceneIsTheBackground) {
       EXPECT_EQ(pixel(image, x, y)[3], 255);
     }
   }
+}
+
+// `above` over a plain colour.
+int over(const std::uint8_t* above, int c, int colour) {
+  return (above[c] * above[3] + colour * (255 - above[3]) + 127) / 255;
+}
+
+// Laid over any colour, a picture without a background is the picture before that colour.
+TEST(Raster, WithoutBackgroundPixelsHaveAlpha) {
+  Flat star;
+  for (int i = 0; i < 9; ++i) {
+    const float a = 0.7f * float(i);
+    star.add({0.1f, 0.2f, 0}, Vec3{std::cos(a), std::sin(a), 0} * 14.0f,
+             Vec3{std::cos(a + 0.3f), std::sin(a + 0.3f), 0} * 14.0f,
+             {float(i % 3) / 2, 0.5f, float(i % 2)});
+  }
+  render::RenderOptions none = kBlack;
+  none.transparent = true;
+  const Image clear = render::render(star.scene(), {}, none);
+  std::size_t edges = 0, empty = 0, full = 0;
+  for (const std::uint32_t colour : {0x000000u, 0xFFFFFFu, 0x40C010u}) {
+    render::RenderOptions plain = kBlack;
+    plain.background_top = plain.background_bottom = colour;
+    const Image image = render::render(star.scene(), {}, plain);
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x) {
+        const std::uint8_t* above = pixel(clear, x, y);
+        edges += above[3] > 0 && above[3] < 255;
+        empty += above[3] == 0;
+        full += above[3] == 255;
+        for (int c = 0; c < 3; ++c) {
+          const int below = int(colour >> (16 - 8 * c) & 255);
+          ASSERT_NEAR(over(above, c, below), pixel(image, x, y)[c], 2) << x << " " << y;
+        }
+        ASSERT_EQ(pixel(image, x, y)[3], 255);
+      }
+    }
+  }
+  EXPECT_GT(edges, 100u);
+  EXPECT_GT(empty, 1000u);
+  EXPECT_GT(full, 1000u);
+}
+
+TEST(Raster, APictureIsBehind) {
+  auto behind = std::make_shared<Image>(Image{101, 67, {}});
+  for (int i = 0; i < 101 * 67; ++i) {
+    behind->rgba.insert(behind->rgba.end(),
+                        {std::uint8_t(i % 251), std::uint8_t(i % 83), std::uint8_t(i / 101), 7});
+  }
+  render::RenderOptions options = kBlack;
+  options.background = behind;
+  const Image image = render::render({}, {}, options);
+  for (std::size_t i = 0; i < image.rgba.size(); ++i)
+    ASSERT_EQ(image.rgba[i], i % 4 == 3 ? 255 : behind->rgba[i]) << i;
+  // Of another size it is not used.
+  options.width = 50;
+  EXPECT_EQ(pixel(render::render({}, {}, options), 3, 3)[0], 0);
 }
 
 // A fan of triangles about an odd point fills its square without holes or double cover.

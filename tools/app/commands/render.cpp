@@ -42,6 +42,8 @@ struct RenderOptions {
   double up = 0;
   double zoom = 1;
   std::string size = "640x640";
+  std::string background;
+  bool captions = false;
   std::string audio;
   std::string script;
   std::string mouth = kMouthByVisemes;
@@ -108,9 +110,12 @@ Result<Plan> make_plan(const RenderOptions& options) {
   if (std::string problem = studio::problem_of(options.head); !problem.empty()) {
     return make_error(Code::invalid_argument, std::move(problem));
   }
+  const auto background = studio::parse_background(options.background);
+  if (!background) return background.error();
   plan.look = {options.head, render::view_degrees(options.view).value_or(0),
                options.up,   options.zoom,
-               plan.size.x,  plan.size.y};
+               plan.size.x,  plan.size.y,
+               *background};
   return plan;
 }
 
@@ -189,6 +194,14 @@ Result<int> render_video(const RenderOptions& options, const Plan& plan) {
   const Result<dam::Script> script = script_for(options.script, {options.input}, options.reading);
   if (!script) return script.error();
   if (!options.script.empty()) preview.script = &*script;
+  if (options.captions) {
+    if (script->phones.empty()) {
+      return make_error(Code::not_found,
+                        "no words are known for --captions: give them with --script")
+          .in_file(options.input);
+    }
+    preview.captions = &*script;
+  }
   preview.visemes = said_visemes(*input, *clip, *script, options.mouth);
   const Result<std::optional<speech::SoundInput>> sound = sound_of(options);
   if (!sound) return sound.error();
@@ -219,12 +232,19 @@ Result<int> draw_all(const RenderOptions& options) {
   const std::string extension = extension_of(options.output);
   const bool still = options.frame >= 0 || !options.times.empty() || !options.sheet.empty();
   const bool pictures = still || !options.shapes.empty();
+  const bool film =
+      !pictures && (studio::is_film(extension) || studio::is_picture_sequence(options.output));
+  if (options.captions && !film) return usage_error("--captions is for videos and frame_%04d.png");
+  if (plan->look.background.kind == studio::Background::Kind::none && options.output != "-" &&
+      !studio::keeps_alpha(extension)) {
+    return usage_error("--background none needs a file with transparency: .webm, .webp or .png");
+  }
   if (pictures && studio::is_film(extension) && !studio::is_picture(extension)) {
     return usage_error(
         "a video shows the whole clip; --frame, --time, --sheet and --shapes are for "
         ".png, .jpg and .webp");
   }
-  if (studio::is_film(extension) && !pictures) return render_video(options, *plan);
+  if (film) return render_video(options, *plan);
   Result<std::vector<studio::ShownFrame>> frames = choose_frames(options, *plan);
   if (!frames) return frames.error();
   const int columns = options.sheet.empty() ? columns_for(frames->size()) : plan->sheet.x;
@@ -251,8 +271,8 @@ void add_options(OptionTable& cli, RenderOptions& options) {
   cli.add("input", options.input, "FAP text, FBA stream, container or table of curves");
   cli.add("-o,--output", options.output,
           "File to write: .mp4 or .mkv (H.264), .webm (VP9), .webp (animated, silent); a "
-          "still or sheet as .png, .jpg or .webp (with --time and the like); - is PNG on "
-          "standard output")
+          "still or sheet as .png, .jpg or .webp (with --time and the like); frame_%04d.png, a "
+          "picture a frame; - is PNG on standard output")
       ->output(".png .jpg .jpeg .webp .mp4 .webm .mkv", OutputKind::file_or_dash)
       ->required();
   cli.add("--shapes", options.shapes,
@@ -284,6 +304,13 @@ void add_options(OptionTable& cli, RenderOptions& options) {
       ->type("WIDTHxHEIGHT")
       ->check(problem_of_pixels)
       ->show_default();
+  cli.add("--background", options.background,
+          "Behind the head: none (transparent: .webm, .webp, .png), a colour (#336699, white, lime "
+          "...) or a picture (.png, .jpg, .webp), which fills the frame; default: grey")
+      ->type("COLOUR|PICTURE")
+      ->check(problem_of<studio::parse_background>);
+  cli.add("--captions", options.captions,
+          "Video: what is said, in the picture; the word that is said has another colour");
   cli.add("--audio", options.audio, "Video: sound; default: that of the input");
   cli.add("--script", options.script,
           "Phones: below the face of a video, and for --mouth; default for --mouth: those in the "
@@ -315,6 +342,8 @@ const Command kRender{
     "open_jaw,raise_b_midlip -o talk.webm\n"
     "  animeme render talk.fap --time 1.5 -o still.png     # .jpg, .webp\n"
     "  animeme render talk.fap --size 256x256 -o talk.webp    # animated in READMEs and chats\n"
+    "  animeme render talk.mp4 --size 1080x1920 --captions --background white -o short.mp4\n"
+    "  animeme render talk.mp4 --background none -o over.webm    # or frame_%04d.png\n"
     "  animeme render talk.mp4 --sheet 4x3 --head man --view three-quarter "
     "-o sheet.png\n"
     "  animeme render --shapes visemes --size 200x200 -o visemes.png",

@@ -30,8 +30,14 @@ Result<void> check(const VideoSettings& settings) {
   if (settings.quality < 0 || settings.quality > 51) {
     return invalid("the quality of a video is 0 (best) to 51");
   }
+  if (settings.alpha && settings.codec != VideoCodec::vp9)
+    return make_error(Code::unsupported, "only VP9 (.webm) has transparent videos");
   if (settings.threads < 1 || settings.threads > 64) return invalid("1 to 64 threads");
   return {};
+}
+
+AVPixelFormat format_of(const VideoSettings& settings) {
+  return settings.alpha ? AV_PIX_FMT_YUVA420P : AV_PIX_FMT_YUV420P;
 }
 
 void set_options(const VideoSettings& settings, AVCodecContext& codec, av::Options& options) {
@@ -67,7 +73,7 @@ Result<av::Codec> open_codec(const VideoSettings& settings) {
   const int den = int(settings.rate.den);
   codec->width = settings.width;
   codec->height = settings.height;
-  codec->pix_fmt = AV_PIX_FMT_YUV420P;
+  codec->pix_fmt = format_of(settings);
   codec->time_base = {den, num};
   codec->framerate = {num, den};
   codec->gop_size = std::max(1, num / den);
@@ -91,7 +97,7 @@ Result<av::Codec> open_codec(const VideoSettings& settings) {
 Result<av::Sws> open_scaler(const VideoSettings& settings) {
   const int flags = SWS_BILINEAR | SWS_ACCURATE_RND | SWS_BITEXACT | SWS_FULL_CHR_H_INP;
   av::Sws sws(sws_getContext(settings.width, settings.height, AV_PIX_FMT_RGBA, settings.width,
-                             settings.height, AV_PIX_FMT_YUV420P, flags, nullptr, nullptr,
+                             settings.height, format_of(settings), flags, nullptr, nullptr,
                              nullptr));
   if (!sws) return av::no_memory();
   const int* matrix = sws_getCoefficients(SWS_CS_ITU709);
@@ -160,7 +166,8 @@ Result<VideoEncoder> VideoEncoder::open(const VideoSettings& settings) {
     impl->packet.reset(av_packet_alloc());
     if (!impl->frame || !impl->packet) return av::no_memory();
     const AVCodecContext& context = *impl->codec;
-    impl->video = {settings.codec, settings.width, settings.height, settings.rate, {}, {}};
+    impl->video = {settings.codec, settings.width, settings.height, settings.rate, {}, false, {}};
+    impl->video.alpha = settings.alpha;
     impl->video.config.assign(context.extradata, context.extradata + context.extradata_size);
     return VideoEncoder(std::move(impl));
   });
@@ -177,6 +184,11 @@ Result<void> VideoEncoder::Impl::send(const AVFrame* picture) {
     coded.bytes.assign(packet->data, packet->data + packet->size);
     coded.key = (packet->flags & AV_PKT_FLAG_KEY) != 0;
     coded.time = packet->pts;
+    std::size_t size = 0;
+    // Behind a number of 8 bytes that names the kind of what follows: 1, alpha.
+    constexpr auto kBeside = AV_PKT_DATA_MATROSKA_BLOCKADDITIONAL;
+    const std::uint8_t* beside = av_packet_get_side_data(packet.get(), kBeside, &size);
+    if (beside != nullptr && size > 8) coded.alpha.assign(beside + 8, beside + size);
     video.packets.push_back(std::move(coded));
     av_packet_unref(packet.get());
   }
@@ -193,7 +205,7 @@ Result<void> VideoEncoder::push(std::span<const std::uint8_t> rgba) {
       return invalid("the picture has not the size of the video");
     }
     AVFrame& frame = *impl.frame;
-    frame.format = AV_PIX_FMT_YUV420P;
+    frame.format = format_of(impl.settings);
     frame.width = width;
     frame.height = height;
     if (av_frame_get_buffer(&frame, 0) < 0) return av::no_memory();

@@ -46,11 +46,14 @@ struct VideoSettings {
   int quality = 20;
   /// Encoder threads. The output depends on the number, so it does not default to the machine's.
   int threads = 4;
+  /// Pixels have alpha, too: VP9 only, in .webm and .mkv. Players without it show the colours.
+  bool alpha = false;
 };
 
 /// One coded picture.
 struct VideoPacket {
   std::vector<std::uint8_t> bytes;  ///< in the codec's format
+  std::vector<std::uint8_t> alpha;  ///< likewise, of the second picture that holds alpha; or empty
   bool key = false;                 ///< a player can begin here
   std::int64_t time = 0;            ///< frame number; presentation = decoding order
 
@@ -64,6 +67,7 @@ struct EncodedVideo {
   int height = 0;                       ///< pixels
   fap::Rate rate;                       ///< pictures a second
   std::vector<std::uint8_t> config;     ///< decoder configuration ("extradata")
+  bool alpha = false;                   ///< the packets have alpha
   std::vector<VideoPacket> packets;     ///< one per picture
 };
 
@@ -78,7 +82,8 @@ class VideoEncoder {
   VideoEncoder& operator=(VideoEncoder&&) noexcept;
   ~VideoEncoder();
 
-  /// Adds one picture: width x height x 4 bytes, rows from the top, R G B A; A is not used.
+  /// Adds one picture: width x height x 4 bytes, rows from the top, R G B A (colours not
+  /// multiplied with A, which is used only with VideoSettings::alpha).
   /// Errors: invalid_argument (another size), io (the encoder fails), out_of_range (memory).
   Result<void> push(std::span<const std::uint8_t> rgba);
   /// Ends and returns the video. Nothing can be pushed afterwards.

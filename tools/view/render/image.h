@@ -7,7 +7,8 @@
 
 namespace animeme::render {
 
-/// Rows from the top, pixels from the left, 4 bytes each: R, G, B (sRGB), A (always 255).
+/// Rows from the top, pixels from the left, 4 bytes each: R, G, B (sRGB, not multiplied with A), A
+/// (255 but in pictures without a background).
 struct Image {
   int width = 0;                   ///< pixels
   int height = 0;                  ///< pixels

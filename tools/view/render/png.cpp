@@ -32,12 +32,12 @@ int paeth(int left, int above, int corner) {
   return da <= dc ? above : corner;
 }
 
-// One row by one of the five filters of PNG, its number in front.
-Bytes filtered(int filter, const Bytes& row, const Bytes& above) {
+// One row by one of the five filters of PNG, its number in front; `step`: bytes of a pixel.
+Bytes filtered(int filter, const Bytes& row, const Bytes& above, std::size_t step) {
   Bytes out = {std::uint8_t(filter)};
   for (std::size_t i = 0; i < row.size(); ++i) {
-    const int left = i >= 3 ? row[i - 3] : 0;
-    const int corner = i >= 3 ? above[i - 3] : 0;
+    const int left = i >= step ? row[i - step] : 0;
+    const int corner = i >= step ? above[i - step] : 0;
     const int guesses[] = {0, left, above[i], (left + above[i]) / 2, paeth(left, above[i], corner)};
     out.push_back(std::uint8_t(row[i] - guesses[filter]));
   }
@@ -45,11 +45,11 @@ Bytes filtered(int filter, const Bytes& row, const Bytes& above) {
 }
 
 // The filter whose bytes, taken as signed, are smallest in sum.
-Bytes best_filtered(const Bytes& row, const Bytes& above) {
+Bytes best_filtered(const Bytes& row, const Bytes& above, std::size_t step) {
   Bytes best;
   long least = 0;
   for (int filter = 0; filter < 5; ++filter) {
-    Bytes trial = filtered(filter, row, above);
+    Bytes trial = filtered(filter, row, above, step);
     long sum = 0;
     for (std::size_t i = 1; i < trial.size(); ++i) sum += std::abs(int(std::int8_t(trial[i])));
     if (filter > 0 && sum >= least) continue;
@@ -68,14 +68,17 @@ bool whole(const Image& image) {
 
 Result<Bytes> png_of(const Image& image) {
   if (!whole(image)) return make_error(Code::invalid_argument, "the picture has no pixels");
+  bool opaque = true;
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) opaque = opaque && image.rgba[i] == 255;
+  const std::size_t step = opaque ? 3 : 4;
   Bytes rows;
-  Bytes above(std::size_t(image.width) * 3);
+  Bytes above(std::size_t(image.width) * step);
   for (int y = 0; y < image.height; ++y) {
     Bytes row;
     row.reserve(above.size());
     const std::uint8_t* pixel = &image.rgba[std::size_t(y) * std::size_t(image.width) * 4];
-    for (int x = 0; x < image.width; ++x, pixel += 4) row.insert(row.end(), pixel, pixel + 3);
-    const Bytes best = best_filtered(row, above);
+    for (int x = 0; x < image.width; ++x, pixel += 4) row.insert(row.end(), pixel, pixel + step);
+    const Bytes best = best_filtered(row, above, step);
     rows.insert(rows.end(), best.begin(), best.end());
     above = std::move(row);
   }
@@ -89,7 +92,8 @@ Result<Bytes> png_of(const Image& image) {
   Bytes header;
   put_number(header, std::uint32_t(image.width));
   put_number(header, std::uint32_t(image.height));
-  header.insert(header.end(), {8, 2, 0, 0, 0});  // 8 bits, RGB, no interlacing
+  // 8 bits, RGB or RGBA, no interlacing
+  header.insert(header.end(), {8, std::uint8_t(opaque ? 2 : 6), 0, 0, 0});
   Bytes png = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
   put_chunk(png, "IHDR", header);
   put_chunk(png, "IDAT", packed);

@@ -7,7 +7,8 @@
 
 namespace animeme::render {
 
-/// A PNG file, RGB with 8 bits; alpha is dropped. Errors: invalid_argument (no pixels, or not width
+/// A PNG file of 8 bits: RGB, or RGBA where a pixel is not opaque. Errors: invalid_argument (no
+/// pixels, or not width
 /// * height * 4 bytes), out_of_range (memory).
 Result<std::vector<std::uint8_t>> png_of(const Image& image);
 

@@ -60,6 +60,10 @@ struct RenderOptions {
   int threads = 0;                             ///< 0: as many as the machine has
   std::uint32_t background_top = 0x51606E;     ///< sRGB
   std::uint32_t background_bottom = 0x262B33;  ///< sRGB
+  /// Behind the head instead of the colours: width x height pixels, whose alpha is not used;
+  /// another size: the colours. Empty: the colours.
+  std::shared_ptr<const Image> background = {};
+  bool transparent = false;  ///< no background at all: pixels have alpha
 };
 
 /// Renders pictures and reuses its memory.

@@ -45,7 +45,7 @@ Result<void> Animation::push(std::span<const std::uint8_t> rgba, int millisecond
   picture.width = impl_->width;
   picture.height = impl_->height;
   picture.use_argb = 1;
-  const bool good = WebPPictureImportRGBX(&picture, rgba.data(), impl_->width * 4) != 0 &&
+  const bool good = WebPPictureImportRGBA(&picture, rgba.data(), impl_->width * 4) != 0 &&
                     WebPAnimEncoderAdd(impl_->encoder, &picture, milliseconds, &impl_->config) != 0;
   WebPPictureFree(&picture);
   if (!good) return make_error(Code::out_of_range, WebPAnimEncoderGetError(impl_->encoder));

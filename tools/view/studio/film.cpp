@@ -9,6 +9,7 @@
 #include "tools/formats/media/audio.h"
 #include "tools/formats/media/video.h"
 #include "tools/view/plot/strip.h"
+#include "tools/view/studio/captions.h"
 #include "tools/view/studio/picture_file.h"
 
 namespace animeme::studio {
@@ -100,6 +101,9 @@ Result<Film> render_all(const fap::Sequence& clip, double seconds, const FilmOpt
   if (!view) return view.error();
   plot::Strip strip(clip, {look.width, strip_height, options.faps, options.script,
                            std::clamp(seconds, 0.5, kLongestPage)});
+  std::optional<CaptionPainter> captions;
+  if (options.captions != nullptr) captions.emplace(*options.captions, above.width, above.height);
+  std::vector<std::uint8_t> rgba;  // of the head with what is over and below it
   const auto pictures = std::int64_t(std::ceil(seconds * rate.frames_per_second() - 1e-6));
   Film out{.width = look.width, .height = look.height, .rate = rate};
   for (std::int64_t i = 0; i < std::max<std::int64_t>(pictures, 1); ++i) {
@@ -111,10 +115,15 @@ Result<Film> render_all(const fap::Sequence& clip, double seconds, const FilmOpt
     const render::Image& image =
         view->draw(face_at(clip, time), said_at(options.visemes, clip.rate, time));
     Result<void> taken;
-    if (has_strip) {
-      std::vector<std::uint8_t> rgba = image.rgba;
+    if (has_strip || captions) {
+      rgba = image.rgba;
       rgba.resize(std::size_t(look.width) * std::size_t(look.height) * 4);
-      if (auto drawn = strip.draw(time, look.height, rgba); !drawn) return drawn.error();
+      if (has_strip) {
+        if (auto drawn = strip.draw(time, look.height, rgba); !drawn) return drawn.error();
+      }
+      if (captions) {
+        if (auto drawn = captions->draw(time, rgba); !drawn) return drawn.error();
+      }
       taken = take(rgba, i);
     } else {
       taken = take(image.rgba, i);
@@ -133,8 +142,10 @@ Result<Film> write_video(const std::string& path, const fap::Sequence& clip,
   Result<media::VideoCodec> codec = media::video_codec_for(tools::extension_of(path));
   if (!codec) return codec.error();
   const fap::Rate rate = options.rate.value_or(clip.rate);
-  Result<media::VideoEncoder> encoder = media::VideoEncoder::open(
-      {*codec, options.look.width, options.look.height, rate, options.quality});
+  media::VideoSettings settings{*codec, options.look.width, options.look.height, rate,
+                                options.quality};
+  settings.alpha = options.look.background.kind == Background::Kind::none;
+  Result<media::VideoEncoder> encoder = media::VideoEncoder::open(settings);
   if (!encoder) return encoder.error();
   Result<Film> film = render_all(
       clip, std::max(clip.duration(), seconds_of(sound)), options,
@@ -178,7 +189,70 @@ Result<Film> write_animation(const std::string& path, const fap::Sequence& clip,
   return film;
 }
 
+// Where the number of the picture goes into the path.
+struct NumberPlace {
+  std::size_t at = 0;
+  std::size_t length = 0;  // of "%04d"
+  int digits = 0;
+};
+
+std::optional<NumberPlace> number_place(const std::string& path) {
+  const std::size_t at = path.find('%');
+  if (at == std::string::npos || path.find('%', at + 1) != std::string::npos) return std::nullopt;
+  std::size_t end = at + 1;
+  int digits = 0;
+  if (end < path.size() && path[end] == '0') ++end;
+  if (end < path.size() && path[end] >= '1' && path[end] <= '9') digits = path[end++] - '0';
+  if (end >= path.size() || path[end] != 'd') return std::nullopt;
+  return NumberPlace{at, end + 1 - at, digits};
+}
+
+Result<Film> write_sequence(const std::string& path, const fap::Sequence& clip,
+                            const FilmOptions& options, const tools::Log& log,
+                            const tools::Progress& progress) {
+  const NumberPlace place = number_place(path).value_or(NumberPlace{});
+  const auto name_of_picture = [&](std::int64_t number) {
+    std::string digits = std::to_string(number);
+    digits.insert(0, std::size_t(std::max(place.digits - int(digits.size()), 0)), '0');
+    std::string name = path;
+    return name.replace(place.at, place.length, digits);
+  };
+  Result<Film> film = render_all(
+      clip, clip.duration(), options,
+      [&](std::span<const std::uint8_t> rgba, std::int64_t picture) -> Result<void> {
+        const auto file = picture_of(
+            {options.look.width, options.look.height, {rgba.begin(), rgba.end()}}, ".png");
+        if (!file) return file.error();
+        return tools::write_file(name_of_picture(picture + 1), *file);
+      },
+      log, progress);
+  if (film) film->codec = "PNG";
+  return film;
+}
+
+Result<Film> write_any(const std::string& path, const fap::Sequence& clip,
+                       const media::MuxInput& sound, const FilmOptions& options,
+                       const tools::Log& log, const tools::Progress& progress) {
+  const std::string extension = tools::extension_of(path);
+  if (options.look.background.kind == Background::Kind::none && !keeps_alpha(extension)) {
+    return make_error(Code::unsupported,
+                      "a file of this kind has no transparency; write .webm, .webp (animated), or "
+                      "a .png a frame (frame_%04d.png)");
+  }
+  if (is_picture_sequence(path)) return write_sequence(path, clip, options, log, progress);
+  return is_animation(extension) ? write_animation(path, clip, options, log, progress)
+                                 : write_video(path, clip, sound, options, log, progress);
+}
+
 }  // namespace
+
+bool is_picture_sequence(const std::string& path) {
+  return tools::extension_of(path) == ".png" && number_place(path).has_value();
+}
+
+bool keeps_alpha(const std::string& extension) {
+  return extension == ".webm" || extension == ".webp" || extension == ".png";
+}
 
 bool is_animation(const std::string& extension) { return extension == ".webp"; }
 
@@ -196,9 +270,7 @@ Result<Film> write_film(const std::string& path, const fap::Sequence& clip,
   FilmOptions own = options;
   own.look.width = even(options.look.width);
   own.look.height = even(options.look.height);
-  Result<Film> film = is_animation(tools::extension_of(path))
-                          ? write_animation(path, clip, own, log, progress)
-                          : write_video(path, clip, sound, own, log, progress);
+  Result<Film> film = write_any(path, clip, sound, own, log, progress);
   if (!film) return film.error().in_file(path);
   return film;
 }

@@ -27,6 +27,8 @@ struct FilmOptions {
   int audio_bit_rate = 0;               ///< bits a second; 0: default
   /// What is said, by frame of the clip: see head::PoseOptions::visemes. Empty: unknown.
   std::vector<fap::VisemeWeights> visemes = {};
+  /// What is said, as captions in the picture (captions.h); nullptr: none.
+  const dam::Script* captions = nullptr;
 };
 
 /// A video that was written.
@@ -43,6 +45,12 @@ struct Film {
 /// Whether the extension (in lower case) is that of an animation without sound: .webp.
 bool is_animation(const std::string& extension);
 
+/// Whether the path names a picture for each frame: ".png" with one %d or %04d in its name.
+bool is_picture_sequence(const std::string& path);
+
+/// Whether a file with this extension (in lower case) keeps transparency: .webm, .webp, .png.
+bool keeps_alpha(const std::string& extension);
+
 /// The quality of JPEG and WebP, 1..100, for one of FilmOptions.
 int picture_quality(int quality);
 
@@ -51,9 +59,10 @@ bool is_film(const std::string& extension);
 
 /// Renders `clip` (filled) and writes it with `sound` (audio or encoded; its face becomes a
 /// separate track; an animation has pictures only). The video lasts as long as the longer of clip
-/// and sound. Notes of the head go to log.info. Errors: not_found (no frames), unsupported
-/// (extension, no encoder), those of load_head(), VideoEncoder and write_container(), with the
-/// path.
+/// and sound. A path of is_picture_sequence() gets one file a picture, numbered from 1, without
+/// sound. Notes of the head go to log.info. Errors: not_found (no frames), unsupported (extension,
+/// no encoder, no background where keeps_alpha() is false), those of HeadView::make(),
+/// CaptionPainter, VideoEncoder and write_container(), with the path.
 Result<Film> write_film(const std::string& path, const fap::Sequence& clip,
                         const media::MuxInput& sound, const FilmOptions& options,
                         const tools::Log& log = {}, const tools::Progress& progress = {});

@@ -1,6 +1,7 @@
 #include "tools/view/studio/head_view.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -10,13 +11,40 @@
 
 namespace animeme::studio {
 
+namespace {
+
+// Upright pictures see more of the head than others, and would see the lower edge of its bust. So
+// their camera stands higher, by this share of what is seen more.
+constexpr float kRise = 0.75f;
+
+render::Camera camera_of(const head::Head& head, const HeadLook& look) {
+  const render::Camera usual = render::look_at(head, look.degrees, look.up, look.zoom);
+  render::Camera camera = render::fit_to(usual, look.width, look.height);
+  const float more = std::tan(camera.view_angle / 2) - std::tan(usual.view_angle / 2);
+  const head::Vec3 rise = camera.up * (kRise * more * length(camera.eye - camera.target));
+  camera.eye += rise;
+  camera.target += rise;
+  return camera;
+}
+
+render::RenderOptions options_of(const HeadLook& look,
+                                 std::shared_ptr<const render::Image> behind) {
+  render::RenderOptions options{.width = look.width, .height = look.height};
+  if (look.background.kind == Background::Kind::colour)
+    options.background_top = options.background_bottom = look.background.colour;
+  options.background = std::move(behind);
+  options.transparent = look.background.kind == Background::Kind::none;
+  return options;
+}
+
+}  // namespace
+
 struct HeadView::State {
-  State(head::Head made, const HeadLook& look)
+  State(head::Head made, const HeadLook& look, std::shared_ptr<const render::Image> behind)
       : head(std::move(made)),
         rig(head::make_rig(head)),
-        camera(render::fit_to(render::look_at(head, look.degrees, look.up, look.zoom), look.width,
-                              look.height)),
-        renderer({.width = look.width, .height = look.height}) {}
+        camera(camera_of(head, look)),
+        renderer(options_of(look, std::move(behind))) {}
 
   head::Head head;
   head::Rig rig;
@@ -33,7 +61,9 @@ HeadView::~HeadView() = default;
 Result<HeadView> HeadView::make(const HeadLook& look, const tools::Log& log) {
   Result<head::Head> made = load_head(look.head, log);
   if (!made) return made.error();
-  return HeadView(std::make_unique<State>(std::move(*made), look));
+  auto behind = picture_behind(look.background, look.width, look.height);
+  if (!behind) return behind.error();
+  return HeadView(std::make_unique<State>(std::move(*made), look, std::move(*behind)));
 }
 
 const render::Image& HeadView::draw(const fap::Frame& frame,

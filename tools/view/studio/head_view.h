@@ -8,6 +8,7 @@
 #include "fap/frame.h"
 #include "fap/result.h"
 #include "tools/view/render/image.h"
+#include "tools/view/studio/background.h"
 #include "tools/view/studio/frames.h"
 #include "tools/view/studio/head_file.h"
 
@@ -21,12 +22,14 @@ struct HeadLook {
   double zoom = 1;     ///< 1: head and shoulders
   int width = 640;     ///< pixels
   int height = 640;    ///< pixels
+  /// What is behind the head. With Kind::none the pictures have alpha.
+  Background background = {};
 };
 
 /// Movable, not copyable.
 class HeadView {
  public:
-  /// Errors and talk: those of load_head().
+  /// Errors and talk: those of load_head() and picture_behind().
   static Result<HeadView> make(const HeadLook& look, const tools::Log& log = {});
   HeadView(HeadView&&) noexcept;  ///< movable
   HeadView& operator=(HeadView&&) noexcept;

@@ -22,9 +22,9 @@ namespace animeme::studio {
 /// Whether the extension is ".png", ".jpg", ".jpeg" or ".webp", in lower case.
 bool is_picture(std::string_view extension);
 
-/// Encodes an image in that format, without alpha. `quality` 1..100 for JPEG and WebP. Errors:
-/// unsupported (another extension), invalid_argument (no pixels, or not width * height * 4 bytes; a
-/// side above 65535, of WebP 16383), out_of_range (memory).
+/// Encodes an image in that format; JPEG is without alpha. `quality` 1..100 for JPEG and WebP.
+/// Errors: unsupported (another extension), invalid_argument (no pixels, or not width * height * 4
+/// bytes; a side above 65535, of WebP 16383), out_of_range (memory).
 Result<std::vector<std::uint8_t>> picture_of(const render::Image& image, std::string_view extension,
                                              int quality = 90);
 

@@ -38,27 +38,31 @@ constexpr std::array<Middle, 16> kMiddles = make_middles();
 constexpr int kWide = 7;        // pixels
 constexpr int kLookEvery = 48;  // triangles
 
-F4 as_vector(Vec3 v) { return F4{v.x, v.y, v.z, 0}; }
+constexpr float kOpaque = 255;
+
+F4 as_vector(Vec3 v) { return F4{v.x, v.y, v.z, kOpaque}; }
 
 Vec3 unpack(std::uint32_t srgb) {
   return {float(srgb >> 16 & 255u), float(srgb >> 8 & 255u), float(srgb & 255u)};
 }
 
-// 0xBBGGRR of red, green and blue.
+// 0xAABBGGRR of red, green, blue and alpha.
 inline std::int32_t pack(F4 colour) {
   const F4 high = splat(255.0f);
   const I4 over = colour > high;
   const I4 positive = colour > splat(0.0f);
   colour = as_float(((over & as_int(high)) | (~over & as_int(colour))) & positive);
   const I4 bytes = __builtin_convertvector(colour + splat(0.5f), I4);
-  return bytes[0] | bytes[1] << 8 | bytes[2] << 16;
+  return std::int32_t(std::uint32_t(bytes[0] | bytes[1] << 8 | bytes[2] << 16) |
+                      std::uint32_t(bytes[3]) << 24);
 }
 
 // `shown` over what four samples have.
 I4 mixed(const I4& old, F4 shown, float share) {
   I4 out{};
   for (int s = 0; s < 4; ++s) {
-    const F4 below = {float(old[s] & 255), float(old[s] >> 8 & 255), float(old[s] >> 16 & 255), 0};
+    const F4 below = {float(old[s] & 255), float(old[s] >> 8 & 255), float(old[s] >> 16 & 255),
+                      float(old[s] >> 24 & 255)};
     out[s] = pack(below + (shown - below) * splat(share));
   }
   return out;
@@ -123,11 +127,31 @@ void Tile::start(int x, int y, const RenderOptions& options) {
   nearness_.fill(splat(0.0f));
   farthest_.fill(0);
   drawn_ = 0;
+  const Image* behind = options.background.get();
+  if (options.transparent) {
+    colour_.fill(splat(0));
+    return;
+  }
+  if (behind != nullptr && behind->width == options.width && behind->height == options.height) {
+    show_behind(*behind);
+    return;
+  }
   const Vec3 top = unpack(options.background_top);
   const Vec3 bottom = unpack(options.background_bottom);
   for (int row = 0; row < kTile; ++row) {
     const Vec3 c = head::mix(top, bottom, (float(y + row) + 0.5f) / float(options.height));
     std::fill_n(colour_.begin() + row * kTile, kTile, splat(pack(as_vector(c))));
+  }
+}
+
+void Tile::show_behind(const Image& picture) {
+  for (int y = 0; y < height_; ++y) {
+    const std::uint8_t* pixel =
+        &picture.rgba[(std::size_t(y_ + y) * std::size_t(picture.width) + std::size_t(x_)) * 4];
+    for (int x = 0; x < width_; ++x, pixel += 4) {
+      const F4 colour = {float(pixel[0]), float(pixel[1]), float(pixel[2]), kOpaque};
+      colour_[std::size_t(y * kTile + x)] = splat(pack(colour));
+    }
   }
 }
 
@@ -246,6 +270,7 @@ inline void Tile::fill_pixel(int index, const I4& inside, const F4& nearness, Pa
     F4 shown;
     const float alpha = painter.paint(x + m.x, y + m.y, shown);
     if (alpha <= 0) return;
+    shown[3] = kOpaque;
     I4& old = colour_[std::size_t(index)];
     I4 colour = splat(pack(shown));
     if (painter.blends()) {
@@ -273,7 +298,11 @@ void Tile::finish(Image& image) const {
       out[0] = std::uint8_t(rb >> 2);
       out[1] = std::uint8_t(g >> 2);
       out[2] = std::uint8_t(rb >> 18);
-      out[3] = 255;
+      out[3] = std::uint8_t(g >> 18 & 255);
+      if (out[3] == 255) continue;
+      for (int k = 0; k < 3; ++k)
+        out[k] =
+            std::uint8_t(out[3] == 0 ? 0 : std::min(255, (out[k] * 255 + out[3] / 2) / out[3]));
     }
   }
 }

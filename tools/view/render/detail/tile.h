@@ -38,6 +38,7 @@ class Tile {
   void fill_pixel(int index, const I4& inside, const F4& nearness, Painter& painter, float x,
                   float y);
 
+  void show_behind(const Image& picture);
   void look_how_near();
   bool is_hidden(float nearest, int x0, int y0, int x1, int y1) const;
 
@@ -51,7 +52,7 @@ class Tile {
   int width_ = 0;
   int height_ = 0;
   alignas(16) std::array<F4, kTile * kTile> nearness_;
-  alignas(16) std::array<I4, kTile * kTile> colour_;  // 0xBBGGRR
+  alignas(16) std::array<I4, kTile * kTile> colour_;  // 0xAABBGGRR, multiplied with alpha
 };
 
 }  // namespace animeme::render::detail

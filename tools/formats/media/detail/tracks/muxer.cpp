@@ -108,7 +108,7 @@ Result<void> Muxer::add_video(const EncodedVideo& video) {
                                                          : AV_CODEC_ID_MPEG4;
   parameters.width = video.width;
   parameters.height = video.height;
-  parameters.format = AV_PIX_FMT_YUV420P;
+  parameters.format = video.alpha ? AV_PIX_FMT_YUVA420P : AV_PIX_FMT_YUV420P;
   parameters.color_range = AVCOL_RANGE_MPEG;
   parameters.color_space = AVCOL_SPC_BT709;
   parameters.color_primaries = AVCOL_PRI_BT709;
@@ -118,6 +118,7 @@ Result<void> Muxer::add_video(const EncodedVideo& video) {
   stream->avg_frame_rate = av_inv_q(video_track_.base);
   stream->time_base = {1, int(container_timescale(video.rate.num))};
   stream->disposition = AV_DISPOSITION_DEFAULT;
+  if (video.alpha) av_dict_set(&stream->metadata, "alpha_mode", "1", 0);
   return {};
 }
 
@@ -215,6 +216,13 @@ Result<void> Muxer::write_picture(const VideoPacket& picture) {
   packet_->pts = packet_->dts = picture.time;
   packet_->duration = 1;
   if (picture.key) packet_->flags |= AV_PKT_FLAG_KEY;
+  if (!picture.alpha.empty()) {
+    std::uint8_t* beside = av_packet_new_side_data(
+        packet_.get(), AV_PKT_DATA_MATROSKA_BLOCKADDITIONAL, 8 + picture.alpha.size());
+    if (beside == nullptr) return av::no_memory();
+    AV_WB64(beside, 1);  // the kind: alpha
+    std::memcpy(beside + 8, picture.alpha.data(), picture.alpha.size());
+  }
   return write(*packet_, video_track_);
 }
 
