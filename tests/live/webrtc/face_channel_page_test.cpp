@@ -1,17 +1,21 @@
 // The data channel of access units, as a page of somebody else would use it, over a network that
 // loses 5 %: read by JavaScript of the tests alone, and compared with what was sent.
+#include <algorithm>
+#include <climits>
+#include <string>
+
 #include "tests/live/webrtc/browser.h"
 
 namespace animeme::test {
 namespace face_channel_page_test {
 
-/// Joins by WHEP and keeps every unit by its number.
-constexpr const char* kJoin = R"((() => {
+/// Joins by WHEP and keeps every unit by its number. `options`: of the channel.
+constexpr const char* kJoin = R"(((options) => {
     rtc.relayed = true;
     const peer = new RTCPeerConnection(), units = rtc.units = {};
     rtc.messages = 0;
     peer.addTransceiver('audio', {direction: 'recvonly'});
-    const channel = peer.createDataChannel('animeme.face', {ordered: false, maxRetransmits: 0});
+    const channel = peer.createDataChannel('animeme.face', options);
     channel.binaryType = 'arraybuffer';
     channel.onmessage = (event) => {
       const view = new DataView(event.data);
@@ -37,15 +41,43 @@ constexpr const char* kJoin = R"((() => {
                                           headers: {'Content-Type': 'application/sdp'}});
       await peer.setRemoteDescription({type: 'answer', sdp: await answer.text()});
     })();
-  })())";
+  }))";
+constexpr const char* kLossy = "({ordered: false, maxRetransmits: 0})";
 
-class FaceChannelPage : public WebRtcBrowser {};
+class FaceChannelPage : public WebRtcBrowser {
+ protected:
+  void join(const char* options) {
+    browser_->call("Page.addScriptToEvaluateOnNewDocument", {{"source", kWatch}});
+    browser_->open(web_->address() + "?transport=ws", 800, 600, true);
+    browser_->evaluate(std::string(kJoin) + options);
+  }
+};
+
+/// What browsers open by themselves loses nothing: one unit a message, and no more intra planes
+/// than that which it begins with and those where the source changes its ranges.
+TEST_F(FaceChannelPage, ReliableChannelsHaveAnEncoderOfTheirOwn) {
+  serve();
+  join("({})");
+  relay(0, 0, true);
+  ASSERT_TRUE(wait_for(*browser_, "Object.keys(rtc.units).length > 120", 60));
+  server_->stop();
+  const Json units = browser_->evaluate("rtc.units");
+  EXPECT_EQ(int(browser_->evaluate("rtc.messages")), int(units.size()));
+  EXPECT_EQ(browser_->evaluate("rtc.hello.startsWith('65 1 97 1 ')"), true);
+  int least = INT_MAX, most = 0, intra_planes = 0;
+  for (const auto& [key, unit] : units.items()) {
+    least = std::min(least, std::stoi(key));
+    most = std::max(most, std::stoi(key));
+    intra_planes += int(bool(unit["intra"]));
+  }
+  EXPECT_EQ(most - least + 1, int(units.size())) << "nothing is missing";
+  EXPECT_EQ(units[std::to_string(least)]["intra"], true);
+  EXPECT_LE(intra_planes, 3);
+}
 
 TEST_F(FaceChannelPage, LosesNothingAtFivePercent) {
   serve();
-  browser_->call("Page.addScriptToEvaluateOnNewDocument", {{"source", kWatch}});
-  browser_->open(web_->address() + "?transport=ws", 800, 600, true);
-  browser_->evaluate(kJoin);
+  join(kLossy);
   relay(0.05, 0.03, true);
   ASSERT_TRUE(wait_for(*browser_, "Object.keys(rtc.units).length > 250", 60));
   server_->stop();

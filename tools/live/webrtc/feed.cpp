@@ -36,6 +36,9 @@ void Feed::push(const media::LiveUnit& unit, std::string_view values) {
   }
   const std::int64_t time = unit.time + std::int64_t(timescale_) * web::kWebTimeZero;
   const std::uint8_t flags = unit.intra ? web::kIntra : 0;
+  time_ = std::uint64_t(time);
+  duration_ = std::uint32_t(unit.duration);
+  if (fan_out_) fan_out_->push(unit.bytes);
   message_ = bundles_.push(
       web::write_unit({std::uint64_t(time), std::uint32_t(unit.duration), flags, unit.bytes}),
       unit.intra);
@@ -53,6 +56,34 @@ void Feed::send(Receiver& receiver, const char* label, std::span<const std::uint
   stats_.bytes += std::int64_t(message.size());
 }
 
+void Feed::begin_reliable(Receiver& receiver) {
+  if (!fan_out_) {
+    fan_out_.emplace();
+    bundles_.since_intra([this](const std::vector<std::uint8_t>& message) {
+      fan_out_->push(std::span(message).subspan(web::kUnitHeader));
+    });
+  }
+  receiver.reliable = ++last_reliable_;
+  give_reliable(receiver);
+}
+
+/// The newest unit of the face; who cannot get it begins anew with the next.
+void Feed::give_reliable(Receiver& receiver) {
+  if (!fan_out_->ready()) return;
+  const fba::FanOut::Unit unit = fan_out_->unit_for(receiver.reliable);
+  const std::uint8_t flags = unit.intra ? web::kIntra : 0;
+  const auto message = bundles_.alone(
+      web::write_unit({time_, duration_, flags, {unit.bytes.begin(), unit.bytes.end()}}),
+      unit.intra);
+  const std::int64_t before = stats_.dropped;
+  send(receiver, kFace, message, false);
+  if (stats_.dropped != before) fan_out_->forget(receiver.reliable);
+}
+
+void Feed::forget(const Receiver& receiver) {
+  if (fan_out_ && receiver.reliable != 0) fan_out_->forget(receiver.reliable);
+}
+
 /// True if that channel is open; `known` if what it begins with has been sent before.
 bool Feed::begins(Receiver& receiver, const char* label, bool& known) {
   return receiver.peer->has_channel(label) && !std::exchange(known, true);
@@ -64,7 +95,13 @@ void Feed::give(Receiver& receiver) {
   };
   // The newest unit is among those that a newcomer begins with.
   if (begins(receiver, kFace, receiver.face)) {
-    for (const auto& message : bundles_.catch_up()) send(receiver, kFace, message, false);
+    if (receiver.peer->is_reliable(kFace)) {
+      begin_reliable(receiver);
+    } else {
+      for (const auto& message : bundles_.catch_up()) send(receiver, kFace, message, false);
+    }
+  } else if (receiver.reliable != 0 && !is_sound_) {
+    give_reliable(receiver);
   } else if (receiver.face && !is_sound_) {
     send(receiver, kFace, message_, false);
     stats_.repeated = bundles_.repeated();

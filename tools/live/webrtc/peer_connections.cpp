@@ -142,6 +142,7 @@ bool PeerHub::end(const std::string& id) {
   const std::lock_guard lock(mutex_);
   const auto found = viewers_.find(id);
   if (found == viewers_.end()) return false;
+  if (feed_) feed_->forget(found->second);
   gone_.push_back(std::move(found->second));
   viewers_.erase(found);
   changed_.notify_all();
@@ -201,6 +202,7 @@ void PeerHub::look_after(std::vector<Viewer>& gone) {
     const bool late =
         state == Peer::State::connecting && Clock::now() - at->second.since > patience;
     if (state == Peer::State::over || late) {
+      if (feed_) feed_->forget(at->second);
       gone.push_back(std::move(at->second));
       at = viewers_.erase(at);
     } else {

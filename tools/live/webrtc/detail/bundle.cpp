@@ -48,6 +48,18 @@ std::vector<std::vector<std::uint8_t>> BundleWriter::catch_up() const {
   return messages;
 }
 
+std::vector<std::uint8_t> BundleWriter::alone(std::span<const std::uint8_t> unit,
+                                              bool intra) const {
+  std::vector<std::uint8_t> bytes{'B', 1};
+  put(bytes, number_ + recent_.size() - 1, 4);
+  put(bytes, 1, 1);
+  put(bytes, intra ? hello_.size() : 0, 2);
+  if (intra) bytes.insert(bytes.end(), hello_.begin(), hello_.end());
+  put(bytes, unit.size(), 2);
+  bytes.insert(bytes.end(), unit.begin(), unit.end());
+  return bytes;
+}
+
 std::vector<std::uint8_t> BundleWriter::write(std::size_t first, std::size_t last) const {
   std::vector<std::uint8_t> bytes{'B', 1};
   put(bytes, number_ + first, 4);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <span>
 #include <vector>
 
 namespace animeme::webrtc {
@@ -20,6 +21,13 @@ class BundleWriter {
   std::vector<std::uint8_t> push(std::vector<std::uint8_t> unit, bool intra);
   /// Everything since the newest intra plane, for one who comes now.
   std::vector<std::vector<std::uint8_t>> catch_up() const;
+  /// A message with one unit, in place of the newest one; `intra`: a receiver may begin with it.
+  std::vector<std::uint8_t> alone(std::span<const std::uint8_t> unit, bool intra) const;
+  /// Hands over the units since the newest intra plane, as push() got them.
+  template <class Take>
+  void since_intra(Take take) const {
+    for (std::size_t at = intra_; at < recent_.size(); ++at) take(recent_[at]);
+  }
   std::int64_t repeated() const { return repeated_; }  ///< units that went again, so far
 
  private:

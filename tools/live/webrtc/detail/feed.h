@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "codec/encode/fan_out.h"
 #include "tools/formats/media/live/live.h"
 #include "tools/live/webrtc/detail/bundle.h"
 #include "tools/live/webrtc/detail/peer.h"
@@ -21,6 +22,8 @@ inline constexpr const char* kValues = "animeme.faps";
 struct Receiver {
   std::unique_ptr<Peer> peer;
   bool face = false, values = false;  ///< that channel is open and was begun with
+  /// Of a face whose channel loses nothing: its number in Feed's encoders; 0: it may lose messages.
+  std::uint64_t reliable = 0;
 };
 
 /// Not thread safe.
@@ -34,6 +37,8 @@ class Feed {
   /// Gives what was pushed last to a receiver that is connected; one whose channels have opened
   /// since gets what it needs to begin.
   void give(Receiver& receiver);
+  /// It is no receiver any more.
+  void forget(const Receiver& receiver);
   /// JSON between the values, to who has these.
   void tell(Receiver& receiver, std::string_view json);
   /// It is over.
@@ -46,6 +51,8 @@ class Feed {
   void send(Receiver& receiver, const char* label, std::span<const std::uint8_t> message,
             bool text);
   bool begins(Receiver& receiver, const char* label, bool& known);
+  void begin_reliable(Receiver& receiver);
+  void give_reliable(Receiver& receiver);
 
   std::uint32_t timescale_;
   int sample_rate_ = 0;
@@ -56,6 +63,11 @@ class Feed {
   std::vector<std::uint8_t> message_;  // or the packet of sound
   std::uint32_t rtp_time_ = 0;
   std::string values_, newest_values_;
+  // For receivers to whom nothing is lost: an encoder each, without intra planes from time to time.
+  std::optional<fba::FanOut> fan_out_;
+  std::uint64_t last_reliable_ = 0;
+  std::uint64_t time_ = 0;  // of the newest unit of the face
+  std::uint32_t duration_ = 0;
 };
 
 }  // namespace animeme::webrtc

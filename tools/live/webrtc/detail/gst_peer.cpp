@@ -335,6 +335,17 @@ bool GstPeer::has_channel(const std::string& label) {
   return state == GST_WEBRTC_DATA_CHANNEL_STATE_OPEN;
 }
 
+bool GstPeer::is_reliable(const std::string& label) {
+  const std::lock_guard lock(mutex_);
+  const auto at = channels_.find(label);
+  if (at == channels_.end()) return false;
+  gboolean ordered = FALSE;
+  gint lifetime = 0, retransmits = 0;  // -1: no limit
+  g_object_get(at->second.get(), "ordered", &ordered, "max-packet-lifetime", &lifetime,
+               "max-retransmits", &retransmits, nullptr);
+  return ordered != FALSE && lifetime < 0 && retransmits < 0;
+}
+
 bool GstPeer::send(const std::string& label, std::span<const std::uint8_t> message, bool text) {
   if (over_ || !has_channel(label)) return false;
   const std::lock_guard lock(mutex_);

@@ -36,6 +36,7 @@ class GstPeer : public Peer {
   State state() override;
   std::string problem() override;
   bool has_channel(const std::string& label) override;
+  bool is_reliable(const std::string& label) override;
   bool send(const std::string& label, std::span<const std::uint8_t> message, bool text) override;
   void send_sound(std::span<const std::uint8_t> packet, std::uint32_t time) override;
   void goodbye() override;

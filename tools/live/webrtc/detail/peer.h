@@ -36,6 +36,9 @@ class Peer {
   virtual std::string problem() = 0;
   /// The other end has opened a channel with this label.
   virtual bool has_channel(const std::string& label) = 0;
+  /// That channel loses nothing and keeps the order: it is ordered, without limits of
+  /// retransmission.
+  virtual bool is_reliable(const std::string& label) = 0;
   /// False: dropped, as there is no such channel, or too much waits.
   virtual bool send(const std::string& label, std::span<const std::uint8_t> message, bool text) = 0;
   /// One packet of Opus; `time` of its first sample, 48000 a second, modulo 2^32: the RTP time.
