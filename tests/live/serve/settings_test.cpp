@@ -19,7 +19,7 @@ TEST(HeadSettings, EveryMemberIsReadAndWritten) {
   const char* text =
       R"({"model":"m","lang":"de+f2","speed":150,"pitch":70,"tts":"t","voice_rate":24000,"head":"h","rate":"29.97","style":1.2,)"
       R"("sharpness":2.0,"articulate":0.5,"idle_motion":false,"tongue":false,"mood":"anger:0.5","seed":9,)"
-      R"("liveliness":0.5,"still":"gaze,brows","look":"20,-5","intra_seconds":2.0,"quant":3,)"
+      R"("liveliness":0.5,"still":"gaze,brows","look":"20,-5","intra_seconds":2.0,"encoder_delay":1.5,"quant":3,)"
       R"("sound":false,"audio_codec":"aac","audio_bitrate":64000,"audio_effort":10})";
   const Result<HeadSettings> settings = read(text);
   ASSERT_TRUE(settings) << settings.error().message;
@@ -54,6 +54,7 @@ TEST(HeadSettings, FaultsNameTheMember) {
       {R"({"mood": "joyous day"})", "\"mood\": there is no mood \"joyous day\""},
       {R"({"mood": 1})", "\"mood\" is a text"},
       {R"({"seed": 1e10})", "\"seed\""},
+      {R"({"encoder_delay": 11})", "\"encoder_delay\" is a number from 0 to 10"},
       {R"({"liveliness": 2.5})", "\"liveliness\" is a number from 0 to 2"},
       {R"({"still": "ears"})", "\"still\": \"ears\" is no part"},
       {R"({"look": "up"})", "\"look\": \"up\" is no target"},

@@ -19,6 +19,7 @@ speech::SpeakerOptions speaker_options(const HeadSettings& settings, int voice_r
   options.face.synthesis.tongue &= settings.quant > 0;  // else FAP 47 does not fit
   options.fap_quant = settings.quant;
   options.intra_seconds = settings.intra_seconds;
+  options.coding_delay = settings.encoder_delay;
   options.voice_rate = voice_rate;
   options.audio.reset();
   if (settings.sound) options.audio = settings.audio;

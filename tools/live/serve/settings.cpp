@@ -149,6 +149,7 @@ Result<HeadSettings> read_settings(const Json& json, HeadSettings settings) {
   members.read("still", dam::parse_still, settings.idle.still);
   members.read("look", dam::parse_look, settings.idle.look);
   members.number("intra_seconds", 0.04, 60, settings.intra_seconds);
+  members.number("encoder_delay", 0, 10, settings.encoder_delay);
   members.number("quant", 0, 31, settings.quant);
   members.flag("sound", settings.sound);
   std::string codec;
@@ -191,6 +192,7 @@ Json settings_json(const HeadSettings& settings) {
           {"still", dam::format_still(settings.idle.still)},
           {"look", dam::format_look(settings.idle.look)},
           {"intra_seconds", settings.intra_seconds},
+          {"encoder_delay", settings.encoder_delay},
           {"quant", settings.quant},
           {"sound", settings.sound},
           {"audio_codec", media::name_of(settings.audio.codec)},

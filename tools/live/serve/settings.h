@@ -31,10 +31,11 @@ struct HeadSettings {
   /// Of the idle motion: "seed" (0..1e9), "liveliness" (0..2), "still" ("gaze,head"), "look"
   /// ("camera", "20,-5")
   dam::IdleMotionOptions idle;
-  dam::Mood mood;              ///< "mood": a name of dam::read_mood(), also "joy:0.6"
-  double intra_seconds = 1;    ///< "intra_seconds": interval of intra planes
-  int quant = 1;               ///< "quant", 0..31
-  bool sound = true;           ///< "sound"
+  dam::Mood mood;            ///< "mood": a name of dam::read_mood(), also "joy:0.6"
+  double intra_seconds = 1;  ///< "intra_seconds": interval of intra planes
+  double encoder_delay = 0;  ///< "encoder_delay": seconds by which all is sent later, for less bits
+  int quant = 1;             ///< "quant", 0..31
+  bool sound = true;         ///< "sound"
   media::AudioSettings audio;  ///< "audio_codec", "audio_bitrate", "audio_effort" (Opus)
 
   HeadSettings();  ///< Opus with an effort of 5 at 48000 bits a second, the articulation of the

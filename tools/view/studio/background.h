@@ -14,6 +14,7 @@ namespace animeme::studio {
 
 /// A background as the user names it.
 struct Background {
+  /// What is behind the head.
   enum class Kind : std::uint8_t {
     usual,    ///< the grey of this program, lighter at the top
     colour,   ///< `colour`
