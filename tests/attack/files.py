@@ -11,7 +11,8 @@ import subprocess
 import sys
 import tempfile
 
-MEMORY = 1_500_000 << 10
+MEMORY = 400_000 << 10
+DATA = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 SECONDS = 60  # of CPU
 
 SPECIAL = [b"\0" * 4, b"\xff" * 4, b"\x7f\xff\xff\xff", b"\x80\0\0\0", b"1e999", b"-1", b"nan", b"\0\0\x01\xb1", b"{", b"]", b"\n"]
@@ -63,28 +64,48 @@ def main():
         for kind in kinds:
             made = run("speak", "--script", path("s.tsv"), "-o", path("a." + kind))
             assert made.returncode == 0, made.stderr
-        commands = {kind: ["info", "IN"] for kind in kinds}
-        commands |= {"fap": ["encode", "IN", "-o", path("o.fba")], "fba": ["decode", "IN", "-o", path("o.fap")],
-                     "mp4": ["demux", "IN", "--face", path("o.fba")], "csv": ["import", "IN", "-o", path("o.fap")],
-                     "tsv": ["speak", "--script", "IN", "-o", path("o.fap")]}
+        two = run("mux", "--track", f"lang=en,face={path('a.fba')}", "--track", f"lang=de,speaker=Ann,face={path('a.fba')}", "-o",
+                  path("two.mp4"))
+        files = {path("a." + kind): ["info", "edit", "over"] for kind in kinds}
+        files[path("a.fap")] += ["encode"]
+        files[path("a.fba")] += ["decode"]
+        files[path("a.mp4")] += ["demux"]
+        files[path("a.csv")] = ["import"]
+        files[path("s.tsv")] = ["speak"]
+        if two.returncode == 0:
+            files[path("two.mp4")] = ["info", "track"]
+        files = {name: what for name, what in files.items() if os.path.isfile(name)}
+        own = list(files)
+        for place in ("fuzz/corpus/c3d", "data/captures_broken"):
+            for found in sorted(os.listdir(os.path.join(DATA, place))):
+                if found.endswith((".c3d", ".csv", ".json", ".npy")):
+                    files[os.path.join(DATA, place, found)] = ["import"]
+        commands = {"info": ["info", "IN"], "encode": ["encode", "IN", "-o", path("o.fba")],
+                    "decode": ["decode", "IN", "-o", path("o.fap")], "demux": ["demux", "IN", "--face", path("o.fba")],
+                    "import": ["import", "IN", "-o", path("o.fap")], "speak": ["speak", "--script", "IN", "-o", path("o.fap")],
+                    "edit": ["edit", "IN", "--from", "0.1", "--scale", "lips=0.5", "-o", path("o.fba")],
+                    "over": ["speak", "--script", path("s.tsv"), "--over", "IN", "-o", path("o.fap")],
+                    "track": ["demux", "IN", "--track", "lang=de", "--face", path("o.fba")]}
         seeds = {}
-        for kind in commands:
-            with open(path(("s." if kind == "tsv" else "a.") + kind), "rb") as file:
-                seeds[kind] = file.read()
+        for name in files:
+            with open(name, "rb") as file:
+                seeds[name] = file.read()
         rng = random.Random(options.seed)
         refused = 0
         for number in range(options.number):
-            kind = rng.choice(sorted(commands))
-            data = mutated(seeds[kind], rng)
-            with open(path("in." + kind), "wb") as out:
+            name = rng.choice(rng.choice((own, sorted(files))))
+            command = commands[rng.choice(files[name])]
+            given = path("in" + os.path.splitext(name)[1])
+            data = mutated(seeds[name], rng)
+            with open(given, "wb") as out:
                 out.write(data)
-            done = run(*[path("in." + kind) if word == "IN" else word for word in commands[kind]])
+            done = run(*[given if word == "IN" else word for word in command])
             said = done.stderr.decode(errors="replace").strip()
             if done.returncode not in (0, 1, 2, 3) or (done.returncode > 1 and not said):
-                kept = f"attack-{options.seed}-{number}.{kind}"
+                kept = f"attack-{options.seed}-{number}{os.path.splitext(name)[1]}"
                 with open(kept, "wb") as out:
                     out.write(data)
-                raise SystemExit(f"{' '.join(commands[kind])}: exit code {done.returncode}: {said[-300:]}; see {kept}")
+                raise SystemExit(f"{' '.join(command)}: exit code {done.returncode}: {said[-300:]}; see {kept}")
             refused += done.returncode != 0
         print(f"{options.number} files, {refused} of them refused")
 

@@ -45,9 +45,9 @@ def main():
         commands = {
             "speak": ["speak", "--text", text, "-o", fap],
             "align": ["align", wav, "--transcript", text, "-o", os.path.join(folder, "a.tsv")],
+            "listen": ["align", wav, "-o", os.path.join(folder, "a.tsv")],
         }
         if "--all" in sys.argv:
-            commands["listen"] = ["speak", "--audio", wav, "-o", fap]
             commands["decode"] = ["decode", os.path.join(folder, "a.mp4"), "-o", fap]
             commands["view"] = ["view", os.path.join(folder, "a.mp4"), "-o", os.path.join(folder, "a.html")]
         for name, arguments in commands.items():

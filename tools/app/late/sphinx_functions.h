@@ -13,7 +13,7 @@ namespace animeme::voice {
 struct SphinxFunctions {
   decltype(&CepstraReader::open) open_cepstra;
   decltype(&voice::read_phone_pairs) read_phone_pairs;
-  decltype(&voice::denoised) denoised;
+  decltype(&voice::denoise) denoise;
   decltype(&RateChange::open) open_rate_change;
   decltype(&WordSearch::open) open_word_search;
 };

@@ -22,8 +22,9 @@ Result<std::vector<double>> read_phone_pairs(const std::string& path,
   return (*sphinx())->read_phone_pairs(path, phones);
 }
 
-std::vector<float> denoised(const std::vector<float>& samples, double snr) {
-  return sphinx() ? (*sphinx())->denoised(samples, snr) : samples;
+void denoise(const std::vector<float>& samples, double snr,
+             const std::function<void(std::span<const float>)>& take) {
+  return sphinx() ? (*sphinx())->denoise(samples, snr, take) : take(samples);
 }
 
 Result<std::unique_ptr<RateChange>> RateChange::open(int rate) {

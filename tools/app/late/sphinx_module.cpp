@@ -4,7 +4,7 @@
 namespace animeme::voice {
 namespace {
 
-constexpr SphinxFunctions kTable = {CepstraReader::open, read_phone_pairs, denoised,
+constexpr SphinxFunctions kTable = {CepstraReader::open, read_phone_pairs, denoise,
                                     RateChange::open, WordSearch::open};
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <speex/speex_preprocess.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -30,10 +31,10 @@ std::int16_t to_int(float sample) {
 
 }  // namespace
 
-std::vector<float> denoised(const std::vector<float>& samples, double snr) {
-  std::vector<float> out = samples;
+void denoise(const std::vector<float>& samples, double snr,
+             const std::function<void(std::span<const float>)>& take) {
   int strength = -int(std::lround(std::clamp(kEnough - snr, 0.0, kMost)));
-  if (strength == 0) return out;
+  if (strength == 0) return take(samples);
   const std::unique_ptr<SpeexPreprocessState, FreeDenoiser> state(
       speex_preprocess_state_init(int(kBlock), kAlignRate));
   int on = 1;
@@ -41,21 +42,20 @@ std::vector<float> denoised(const std::vector<float>& samples, double snr) {
   speex_preprocess_ctl(state.get(), SPEEX_PREPROCESS_SET_NOISE_SUPPRESS, &strength);
   const auto run = [&](std::size_t at, std::int16_t* block) {
     for (std::size_t i = 0; i < kBlock; ++i) {
-      block[i] = at + i < samples.size() ? to_int(out[at + i]) : std::int16_t(0);
+      block[i] = at + i < samples.size() ? to_int(samples[at + i]) : std::int16_t(0);
     }
     speex_preprocess_run(state.get(), block);
   };
   std::int16_t block[kBlock];
-  for (std::size_t at = 0; at < std::min(kLearn, out.size()); at += kBlock) run(at, block);
-  // What comes out is late by one block, which is read already when it is overwritten.
+  for (std::size_t at = 0; at < std::min(kLearn, samples.size()); at += kBlock) run(at, block);
+  // What comes out is late by one block.
   run(0, block);
-  for (std::size_t at = 0; at < out.size(); at += kBlock) {
+  std::array<float, kBlock> out{};
+  for (std::size_t at = 0; at < samples.size(); at += kBlock) {
     run(at + kBlock, block);
-    for (std::size_t i = 0; i < kBlock && at + i < out.size(); ++i) {
-      out[at + i] = float(block[i]) / 32768.0f;
-    }
+    for (std::size_t i = 0; i < kBlock; ++i) out[i] = float(block[i]) / 32768.0f;
+    take(std::span(out).first(std::min(kBlock, samples.size() - at)));
   }
-  return out;
 }
 
 }  // namespace animeme::voice

@@ -92,7 +92,9 @@ MeasuredSound measure_sound(CepstraReader& reader, const SpeechPart& part) {
   if (part.samples.empty()) return sound;
   std::vector<std::int16_t> whole;
   Trace trace{part.loud, 0};
-  to_whole(denoised(part.samples, part.snr), trace, whole);
+  whole.reserve(part.samples.size());
+  denoise(part.samples, part.snr,
+          [&](std::span<const float> samples) { to_whole(samples, trace, whole); });
   sound.speech = part.speech;
   reader.push(whole, sound.cepstra);
   reader.finish(sound.cepstra);

@@ -8,7 +8,7 @@
 namespace animeme::voice {
 namespace {
 
-enum GuardTag : std::uint32_t { kGuardedPiece, kGuardedError };
+enum GuardTag : std::uint32_t { kGuardedPiece, kGuardedError, kGuardedProgress };
 
 constexpr std::size_t kGuardedBytes = std::size_t(1) << 20;
 
@@ -53,19 +53,29 @@ bool send_all(Sender& sender, std::string_view bytes) {
 }  // namespace
 
 Result<std::string> run_guarded(std::string_view what, unsigned seconds,
-                                const std::function<Result<std::string>()>& work) {
+                                const std::function<Result<std::string>(const Told& tell)>& work,
+                                const Told& told) {
   std::string bytes;
   bool failed = false;
   Error error;
   const auto send = [&](Sender& sender) {
+    const Told tell = [&sender](double share) {
+      Packed packed;
+      packed.put(share);
+      (void)sender.send(kGuardedProgress, packed.take());
+    };
     try {
-      const Result<std::string> made = work();
+      const Result<std::string> made = work(tell);
       return made ? send_all(sender, *made) : send_error(sender, made.error());
     } catch (const std::bad_alloc&) {
       return send_error(sender, no_memory(what));
     }
   };
   const auto receive = [&](std::uint32_t tag, std::string piece) {
+    if (tag == kGuardedProgress) {
+      if (told) told(Unpacked(piece).get<double>());
+      return true;
+    }
     failed = tag == kGuardedError;
     if (failed) error = unpack_error(piece);
     if (!failed) bytes += piece;

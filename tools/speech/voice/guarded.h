@@ -13,12 +13,17 @@
 
 namespace animeme::voice {
 
-/// Runs `work` in a child and returns its bytes, or its error. `what` names the library.
+/// Takes how far the work is, 0..1.
+using Told = std::function<void(double)>;
+
+/// Runs `work` in a child and returns its bytes, or its error. `what` names the library. What the
+/// work tells goes to `told`, which may be empty.
 ///
 /// Errors: those of `work`; io (the child cannot be started, the library ended it, there is no
 /// memory, it took more than `seconds`).
 Result<std::string> run_guarded(std::string_view what, unsigned seconds,
-                                const std::function<Result<std::string>()>& work);
+                                const std::function<Result<std::string>(const Told& tell)>& work,
+                                const Told& told = {});
 
 /// Values as bytes, in the byte order of the machine.
 class Packed {

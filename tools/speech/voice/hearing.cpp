@@ -80,7 +80,6 @@ Result<HearingModel> load_hearing(const ListenOptions& options) {
 }
 
 void to_whole(std::span<const float> samples, Trace& trace, std::vector<std::int16_t>& whole) {
-  whole.reserve(whole.size() + samples.size());
   for (const float sample : samples) {
     std::uint64_t z = ++trace.number * 0x9e3779b97f4a7c15u;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;

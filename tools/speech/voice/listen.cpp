@@ -8,6 +8,7 @@
 #include "dam/script/words.h"
 #include "tools/speech/voice/align.h"
 #include "tools/speech/voice/denoise.h"
+#include "tools/speech/voice/guarded.h"
 #include "tools/speech/voice/hearing.h"
 #include "tools/speech/voice/speech_part.h"
 #include "tools/speech/voice/word_search.h"
@@ -159,10 +160,20 @@ constexpr std::size_t kBlockFrames = 2000;  // drawn at once
 constexpr std::size_t kLookAhead = 100;     // frames beyond, which settle how a block ends
 
 std::vector<Cepstrum> cepstra_of(CepstraReader& reader, const SpeechPart& part) {
+  constexpr std::size_t kAtOnce = 16384;  // samples
   std::vector<std::int16_t> whole;
-  Trace trace{part.loud, 0};
-  to_whole(denoised(part.samples, part.snr), trace, whole);
   std::vector<Cepstrum> frames;
+  Trace trace{part.loud, 0};
+  denoise(part.samples, part.snr, [&](std::span<const float> samples) {
+    while (!samples.empty()) {
+      const auto some = samples.first(std::min(kAtOnce, samples.size()));
+      samples = samples.subspan(some.size());
+      to_whole(some, trace, whole);
+      if (whole.size() < kAtOnce) continue;
+      reader.push(whole, frames);
+      whole.clear();
+    }
+  });
   reader.push(whole, frames);
   reader.finish(frames);
   return frames;
@@ -337,6 +348,112 @@ bool is_clipped(std::span<const float> samples) {
   return double(full) > kMostFull * double(samples.size());
 }
 
+constexpr unsigned kMostListenWork = 16 * 3600;  // seconds; an hour of speech takes minutes
+
+// In the child.
+Result<Recognition> listen_here(const media::Pcm& audio, const ListenOptions& options) {
+  auto model = load_hearing(options);
+  if (!model) return model.error();
+  auto reader = CepstraReader::open(options.model_path);
+  if (!reader) return reader.error();
+  SpeechPart part = find_speech(audio.samples);
+  const std::size_t in_part = part.samples.size();
+  const std::vector<Cepstrum> frames = cepstra_of(**reader, part);
+  part.samples = {};  // an hour of them is 230 MB
+  Recognition heard;
+  if (frames.empty()) return make_error(Code::truncated, "there is nothing to hear");
+  std::unique_ptr<WordSearch> words;
+  if (options.words && speaks_english(options.language)) {
+    auto opened =
+        WordSearch::open({options.model_path, options.words_path, options.dictionary_path});
+    if (!opened && opened.error().code != Code::not_found) return opened.error();
+    if (opened) words = std::move(*opened);
+  }
+  Drawn drawn = Drawing(*model, words.get(), frames,
+                        mean_of_speech(frames, part.speech, kSpeechAndEdges), options)
+                    .draw();
+  const double seconds = audio.duration();
+  const double origin = put_in_place(*model, part, audio.samples.size(), drawn);
+  heard.script =
+      script_of_path(*model, drawn.agreed, 0, origin, seconds, &drawn.votes, &heard.confidences);
+  for (const Path& path : drawn.readings) {
+    heard.readings.push_back(script_of_path(*model, path, 0, origin, seconds));
+  }
+  take_words(drawn.words, origin, seconds, heard);
+  sum_up(heard);
+  if (is_clipped(std::span(audio.samples).subspan(part.first, in_part))) {
+    heard.warnings.push_back("the sound is clipped in many places; record it at a lower level");
+  }
+  return heard;
+}
+
+void pack_script(const dam::Script& script, Packed& out) {
+  out.put(script.phones.size());
+  for (const dam::Phone& phone : script.phones) {
+    out.put(phone.start);
+    out.put(phone.end);
+    out.put_text(phone.label);
+    out.put_text(phone.word);
+    out.put(phone.link);
+  }
+}
+
+dam::Script unpack_script(Unpacked& in) {
+  constexpr std::size_t kPhoneBytes =
+      2 * sizeof(double) + 2 * sizeof(std::size_t) + sizeof(dam::WordLink);
+  dam::Script script;
+  script.phones.resize(in.get_count(kPhoneBytes));
+  for (dam::Phone& phone : script.phones) {
+    phone.start = in.get<double>();
+    phone.end = in.get<double>();
+    phone.label = in.get_text();
+    phone.word = in.get_text();
+    phone.link = in.get<dam::WordLink>();
+  }
+  return script;
+}
+
+std::string pack(const Recognition& heard) {
+  Packed out;
+  pack_script(heard.script, out);
+  out.put(heard.confidences.size());
+  for (const double one : heard.confidences) out.put(one);
+  out.put(heard.confidence);
+  out.put(heard.words.size());
+  for (const RecognisedWord& word : heard.words) {
+    out.put_text(word.text);
+    out.put(word.start);
+    out.put(word.end);
+    out.put(word.confidence);
+  }
+  out.put(heard.readings.size());
+  for (const dam::Script& reading : heard.readings) pack_script(reading, out);
+  out.put(heard.warnings.size());
+  for (const std::string& warning : heard.warnings) out.put_text(warning);
+  return out.take();
+}
+
+Recognition unpack_recognition(std::string_view bytes) {
+  Unpacked in(bytes);
+  Recognition heard;
+  heard.script = unpack_script(in);
+  heard.confidences.resize(in.get_count(sizeof(double)));
+  for (double& one : heard.confidences) one = in.get<double>();
+  heard.confidence = in.get<double>();
+  heard.words.resize(in.get_count(sizeof(std::size_t) + 3 * sizeof(double)));
+  for (RecognisedWord& word : heard.words) {
+    word.text = in.get_text();
+    word.start = in.get<double>();
+    word.end = in.get<double>();
+    word.confidence = in.get<double>();
+  }
+  heard.readings.resize(in.get_count(sizeof(std::size_t)));
+  for (dam::Script& reading : heard.readings) reading = unpack_script(in);
+  heard.warnings.resize(in.get_count(sizeof(std::size_t)));
+  for (std::string& warning : heard.warnings) warning = in.get_text();
+  return heard;
+}
+
 }  // namespace
 
 Result<Recognition> listen(const media::Pcm& audio, const ListenOptions& options) {
@@ -350,36 +467,18 @@ Result<Recognition> listen(const media::Pcm& audio, const ListenOptions& options
   if (seconds > kMostListenSeconds) {
     return make_error(Code::out_of_range, "more than four hours of sound; split it");
   }
-  auto model = load_hearing(options);
-  if (!model) return model.error();
-  auto reader = CepstraReader::open(options.model_path);
-  if (!reader) return reader.error();
-  const SpeechPart part = find_speech(audio.samples);
-  const std::vector<Cepstrum> frames = cepstra_of(**reader, part);
-  Recognition heard;
-  if (frames.empty()) return make_error(Code::truncated, "there is nothing to hear");
-  std::unique_ptr<WordSearch> words;
-  if (options.words && speaks_english(options.language)) {
-    auto opened =
-        WordSearch::open({options.model_path, options.words_path, options.dictionary_path});
-    if (!opened && opened.error().code != Code::not_found) return opened.error();
-    if (opened) words = std::move(*opened);
-  }
-  Drawn drawn = Drawing(*model, words.get(), frames,
-                        mean_of_speech(frames, part.speech, kSpeechAndEdges), options)
-                    .draw();
-  const double origin = put_in_place(*model, part, audio.samples.size(), drawn);
-  heard.script =
-      script_of_path(*model, drawn.agreed, 0, origin, seconds, &drawn.votes, &heard.confidences);
-  for (const Path& path : drawn.readings) {
-    heard.readings.push_back(script_of_path(*model, path, 0, origin, seconds));
-  }
-  take_words(drawn.words, origin, seconds, heard);
-  sum_up(heard);
-  if (is_clipped(std::span(audio.samples).subspan(part.first, part.samples.size()))) {
-    heard.warnings.push_back("the sound is clipped in many places; record it at a lower level");
-  }
-  return heard;
+  const auto bytes = run_guarded(
+      "pocketsphinx", kMostListenWork,
+      [&](const Told& tell) -> Result<std::string> {
+        ListenOptions here = options;
+        if (options.progress) here.progress = tell;
+        const Result<Recognition> heard = listen_here(audio, here);
+        if (!heard) return heard.error();
+        return pack(*heard);
+      },
+      options.progress);
+  if (!bytes) return bytes.error();
+  return unpack_recognition(*bytes);
 }
 
 }  // namespace animeme::voice

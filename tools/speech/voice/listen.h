@@ -69,13 +69,14 @@ struct Recognition {
 /// Maximum length of a recording.
 inline constexpr double kMostListenSeconds = 4 * 3600.0;
 
-/// Recognises phones. Steady noise is removed first (denoise.h). Memory: about 10 MB a minute.
+/// Recognises phones, in a child process (guarded.h), as the library ends a process that has no
+/// memory. Steady noise is removed first (denoise.h). Memory: about 10 MB a minute.
 /// Silence and steady noise give a script of silence, and a warning.
 ///
 /// Errors: invalid_argument (audio that is not 16000 Hz - resample it first -, readings out of
 /// range), truncated (less than 0.1 s of audio), out_of_range (more than kMostListenSeconds),
 /// not_found (a model), syntax (a damaged one), unsupported (built without pocketsphinx; a model of
-/// another kind).
+/// another kind), those of run_guarded().
 Result<Recognition> listen(const media::Pcm& audio, const ListenOptions& options = {});
 
 }  // namespace animeme::voice

@@ -203,14 +203,15 @@ Result<void> check_recogniser(const AlignOptions& options) {
 Result<std::vector<double>> explained_by_wrong_texts(const SpeechPart& part,
                                                      const std::vector<SpokenWord>& words,
                                                      const AlignOptions& options) {
-  const auto bytes = run_guarded(kAlignLibrary, kMostAlignSeconds, [&]() -> Result<std::string> {
-    const auto explained = explained_here(part, words, options);
-    if (!explained) return explained.error();
-    Packed out;
-    out.put(explained->size());
-    for (const double one : *explained) out.put(one);
-    return out.take();
-  });
+  const auto bytes =
+      run_guarded(kAlignLibrary, kMostAlignSeconds, [&](const Told&) -> Result<std::string> {
+        const auto explained = explained_here(part, words, options);
+        if (!explained) return explained.error();
+        Packed out;
+        out.put(explained->size());
+        for (const double one : *explained) out.put(one);
+        return out.take();
+      });
   if (!bytes) return bytes.error();
   Unpacked in(*bytes);
   std::vector<double> explained(in.get_count(sizeof(double)));
@@ -220,11 +221,12 @@ Result<std::vector<double>> explained_by_wrong_texts(const SpeechPart& part,
 
 Result<Recognised> recognise(const SpeechPart& part, const std::vector<SpokenWord>& words,
                              const AlignOptions& options) {
-  const auto bytes = run_guarded(kAlignLibrary, kMostAlignSeconds, [&]() -> Result<std::string> {
-    const auto recognised = recognise_here(part, words, options);
-    if (!recognised) return recognised.error();
-    return pack(*recognised);
-  });
+  const auto bytes =
+      run_guarded(kAlignLibrary, kMostAlignSeconds, [&](const Told&) -> Result<std::string> {
+        const auto recognised = recognise_here(part, words, options);
+        if (!recognised) return recognised.error();
+        return pack(*recognised);
+      });
   if (!bytes) return bytes.error();
   return unpack_recognised(*bytes);
 }
