@@ -306,7 +306,7 @@ TEST(EngineInputs, PresetsOfVrmMoveAFace) {
     for (const engines::OscMessage& message : std::vector<engines::OscMessage>{
              {"/VMC/Ext/OK", {1}},
              {"/VMC/Ext/Root/Pos", {std::string("root"), 0.f, 0.f, 0.f, 0.f, 0.f, 0.f, 1.f}},
-             {"/VMC/Ext/Blend/Val", {std::string("a"), open}},
+             {"/VMC/Ext/Blend/Val", {std::string("BlendShape.a"), open}},
              {"/VMC/Ext/Blend/Val", {std::string("BLINK"), open}},
              {"/VMC/Ext/Blend/Apply", {}}}) {
       auto bytes = engines::osc_bundles({&message, 1})[0];

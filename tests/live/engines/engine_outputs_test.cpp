@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <ctime>
 #include <map>
 
 #include "tests/live/engines/engines_support.h"
@@ -105,10 +106,39 @@ TEST_F(EngineOutputs, LiveLinkHasItsNameAndItsDevice) {
   const auto phone = sent_to("livelink://192.0.2.1?subject=iPhone", face);
   const auto anna = sent_to("livelink://192.0.2.1?subject=Anna%20B&rate=60", face);
   ASSERT_EQ(phone.front().bytes.size(), 312u);  // all that VRCFaceTracking takes
-  EXPECT_EQ(read_by_others("livelink", plain)[0]["subject"], "Animeme");
+  ASSERT_EQ(plain.front().bytes.size(), 312u);
+  EXPECT_EQ(read_by_others("livelink", plain)[0]["subject"], "Avatar");
   EXPECT_EQ(read_by_others("livelink", anna)[0]["subject"], "Anna B");
   EXPECT_NE(read_by_others("livelink", anna)[0]["device"],
             read_by_others("livelink", phone)[0]["device"]);
+}
+
+TEST_F(EngineOutputs, LiveLinkCountsFromMidnightIfAsked) {
+  const MovingFace face = moving_face(1);
+  const auto seconds_now = [] {
+    const std::time_t now = std::time(nullptr);
+    std::tm local{};
+    localtime_r(&now, &local);
+    return 3600.0 * local.tm_hour + 60.0 * local.tm_min + local.tm_sec;
+  };
+  const double before = seconds_now();
+  const auto day =
+      read_by_others("livelink", sent_to("livelink://192.0.2.1?rate=60&timecode=day", face));
+  const double after = seconds_now();
+  const auto stream =
+      read_by_others("livelink", sent_to("livelink://192.0.2.1?rate=60&timecode=stream", face));
+  ASSERT_EQ(day.size(), stream.size());
+  const double first = day[0]["time"].get<double>();
+  if (after >= before) {  // not at midnight
+    EXPECT_GE(first, before - 1);
+    EXPECT_LE(first, after + 2);
+  }
+  EXPECT_LT(stream[0]["time"].get<double>(), 1);
+  for (std::size_t i = 1; i < day.size(); ++i) {
+    const double step = day[i]["time"].get<double>() - day[i - 1]["time"].get<double>();
+    if (step < 0) continue;  // midnight
+    EXPECT_NEAR(step, 1 / 60.0, 0.001);
+  }
 }
 
 // A turn by a quaternion, multiplied out from three turns about axes.

@@ -41,10 +41,10 @@ def until(condition, seconds=30):
 class Socket:
     """A WebSocket: messages as bytes or text."""
 
-    def __init__(self, port, path, host="127.0.0.1", timeout=30, headers=""):
+    def __init__(self, port, path, host="127.0.0.1", timeout=30, headers="", connection=None):
         self.closed = None  # status of the end; 0: the connection broke
         self.rest = b""
-        self.socket = socket.create_connection(("127.0.0.1", port), timeout)
+        self.socket = connection or socket.create_connection(("127.0.0.1", port), timeout)
         key = base64.b64encode(os.urandom(16)).decode()
         self.socket.sendall((
             f"GET {path} HTTP/1.1\r\nHost: {host}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"

@@ -37,5 +37,21 @@ TEST(WebRtcAddress, OptionsThatDoNotFitAreNamed) {
   }
 }
 
+TEST(WebRtcAddress, ServersThatHelp) {
+  webrtc::WebRtcOptions options;
+  EXPECT_TRUE(webrtc::add_ice_server("stun:stun.example.org:3478", options));
+  EXPECT_TRUE(webrtc::add_ice_server("turn:me:p@ss:word@[2001:db8::1]:3478", options));
+  EXPECT_EQ(options.stun, "stun.example.org:3478");
+  EXPECT_EQ(options.turn, "me:p@ss:word@[2001:db8::1]:3478");
+  EXPECT_FALSE(webrtc::add_ice_server("stun:other.example.org:3478", options));
+  for (const char* wrong :
+       {"", "stun:", "stun:host", "stun:host:", "stun::1", "stun:host:0", "stun:host:65536",
+        "stun:host:1x", "turn:host:1", "turn:user@host:1", "turn::p@host:1", "stun:a/b:1",
+        "turns:u:p@host:1", "host:1", "stun:a b:1"}) {
+    webrtc::WebRtcOptions none;
+    EXPECT_FALSE(webrtc::add_ice_server(wrong, none)) << wrong;
+  }
+}
+
 }  // namespace webrtc_address_test
 }  // namespace animeme::test

@@ -15,6 +15,7 @@
 #include "tools/app/commands/outputs.h"
 #include "tools/app/commands/parse_line.h"
 #include "tools/app/commands/report.h"
+#include "tools/app/commands/settings_file.h"
 
 namespace animeme::tools {
 
@@ -107,7 +108,7 @@ OptionTable program_table() {
 }
 
 int run_line(std::span<const char* const> arguments) {
-  const std::vector<const char*> words = plain_words(arguments.subspan(1));
+  std::vector<const char*> words = plain_words(arguments.subspan(1));
   const auto name =
       std::find_if(words.begin(), words.end(), [](const char* word) { return word[0] != '-'; });
   const Command* const command = name == words.end() ? nullptr : find_command(*name);
@@ -120,6 +121,13 @@ int run_line(std::span<const char* const> arguments) {
   Action action;
   if (command != nullptr) program.commands.push_back(table_of(*command, action, flags));
   OptionTable* const table = command == nullptr ? nullptr : &program.commands.front();
+  const Result<std::vector<std::string>> settings =
+      table == nullptr ? std::vector<std::string>() : settings_words(*table, words);
+  if (!settings && settings.error().code == Code::invalid_argument) {
+    return usage_error(settings.error().describe());
+  }
+  if (!settings) return report_error(settings.error());
+  for (const std::string& word : *settings) words.push_back(word.c_str());
   const ParsedLine line = parse_line(program, table, words);
   switch (line.action) {
     case ParsedLine::Action::help:

@@ -30,10 +30,12 @@ namespace {
 // What was said on the command line.
 struct ServeOptions {
   std::string heads;                // file with heads that are there from the beginning
+  std::string settings;             // --settings, which line.cpp has read
   std::string token_file;           // --token-file
   std::vector<std::string> models;  // --model, NAME=FILE
   std::vector<std::string> tts;     // --tts, NAME=COMMAND
   std::string viewers = "open";     // --viewers
+  std::vector<std::string> ice;     // --ice-server
   HeadChoices faces;                // --head and what belongs to it
   serve::ServerOptions server;      // all others
   bool stats = false;               // --stats
@@ -81,6 +83,10 @@ void add_options(OptionTable& cli, ServeOptions& options) {
   cli.add("heads", options.heads,
           "File with heads that exist from the start: {\"defaults\": {...}, \"heads\": [{\"name\": "
           "\"anna\", \"lang\": \"en+f3\"}, ...]}");
+  cli.add("--settings", options.settings,
+          "File with options, a line each: max-heads = 50, make-on-say = true, heads = FILE; the "
+          "command line comes first")
+      ->value("FILE");
   cli.add("--listen", server.url,
           "Address: by default this machine only; http://0.0.0.0:8080 for all (with a token)")
       ->value("URL=http://127.0.0.1:8080/")
@@ -127,6 +133,7 @@ void add_options(OptionTable& cli, ServeOptions& options) {
       ->between(0, 64)
       ->show_default();
   add_server_web_options(cli, server.web);
+  add_ice_option(cli, options.ice);
   add_heads_options(cli, options.faces.heads, options.faces.rest);
   cli.add("--log", options.log,
           "Write requests, heads and lines to standard error, without texts: text, or a JSON "
@@ -134,10 +141,10 @@ void add_options(OptionTable& cli, ServeOptions& options) {
       ->one_of("text json");
   cli.add("--stats", options.stats, "Print statistics once per second");
   cli.add("--json", options.json, "Print the address as JSON at the start, statistics at the end");
-  cli.show_in_help_all(
-      "Server",
-      "--threads --max-waiting --drain --max-clients --max-per-address --allow-origin --host-name "
-      "--points --shape-name --shape-names --gain");
+  cli.show_in_help_all("Server",
+                       "--threads --ice-server --max-waiting --drain --max-clients "
+                       "--max-per-address --allow-origin --host-name "
+                       "--points --shape-name --shape-names --gain");
 }
 
 constexpr std::size_t kMostToken = 400;  // bytes; headers of 512 are read
@@ -257,6 +264,9 @@ Result<int> run(ServeOptions& options) {
   if (!options.faces.heads.empty() || rest.names_shapes() || !rest.points.empty() ||
       rest.gain != "1") {
     if (auto given = give_heads(options.faces, wanted.web); !given) return given.error();
+  }
+  if (auto ok = use_ice_servers(options.ice, wanted.web); !ok) {
+    return usage_error(ok.error().message);
   }
   wanted.web = live::with_head(wanted.web);
   if (!options.log.empty()) {

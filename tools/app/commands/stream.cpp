@@ -298,6 +298,9 @@ Result<int> run(StreamOptions& options) {
       return ok.error();
     }
   }
+  if (auto ok = use_ice_servers(options.ice, options.sink.web); !ok) {
+    return usage_error(ok.error().message);
+  }
   auto sinks = live::Sinks::open(options.to, options.sdp, options.sink, terminal_log());
   if (!sinks && sinks.error().code == Code::invalid_argument) {
     return usage_error(sinks.error().message);

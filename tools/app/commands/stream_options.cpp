@@ -7,6 +7,7 @@
 #include "tools/app/commands/options.h"
 #include "tools/app/commands/spoken_options.h"
 #include "tools/app/commands/track_option.h"
+#include "tools/live/webrtc/webrtc.h"
 
 namespace animeme::tools {
 
@@ -127,6 +128,29 @@ void add_guard_options(OptionTable& cli, web::WebOptions& options) {
       ->one_at_a_time();
 }
 
+void add_ice_option(OptionTable& cli, std::vector<std::string>& servers) {
+  cli.add("--ice-server", servers,
+          "Server that helps WebRTC through NAT: stun:HOST:PORT tells the public address of this "
+          "machine, turn:USER:PASSWORD@HOST:PORT relays; one of each; a webrtc address has its own")
+      ->value("URL")
+      ->check([](const std::string& text) {
+        webrtc::WebRtcOptions options;
+        const auto added = webrtc::add_ice_server(text, options);
+        return added ? std::string() : added.error().message;
+      })
+      ->one_at_a_time();
+}
+
+Result<void> use_ice_servers(const std::vector<std::string>& servers, web::WebOptions& options) {
+  if (servers.empty()) return {};
+  webrtc::WebRtcOptions settings;
+  for (const std::string& server : servers) {
+    if (auto ok = webrtc::add_ice_server(server, settings); !ok) return ok;
+  }
+  options.make_peer_connections = [settings] { return webrtc::make_peer_connections(settings); };
+  return {};
+}
+
 void add_options(OptionTable& cli, StreamOptions& options) {
   add_source_options(cli, options);
   cli.add("--to", options.to,
@@ -157,6 +181,7 @@ void add_options(OptionTable& cli, StreamOptions& options) {
       ->between(1, 16)
       ->show_default();
   add_web_options(cli, options.sink.web);
+  add_ice_option(cli, options.ice);
   add_heads_options(cli, options.heads.heads, options.heads.rest);
   add_coding_options(cli, options);
   cli.add("--fast", options.fast, "Send as fast as possible instead of in real time");
@@ -167,7 +192,8 @@ void add_options(OptionTable& cli, StreamOptions& options) {
       "Voices, coding and transport",
       "--tier --speaker --speak-marks --script-format --max-seconds --speed --pitch --liveliness "
       "--look --still --seed --no-tongue --hear-pcm --mtu --repeat --repeat-after "
-      "--bundle --max-clients --max-per-address --allow-origin --host-name --delay --intra-seconds "
+      "--bundle --ice-server --max-clients --max-per-address --allow-origin --host-name --delay "
+      "--intra-seconds "
       "--points --shape-name --shape-names --gain --copy --quant --rms --kbps --small "
       "--default-ranges --encoder-delay --stats --keep --track --pcm --style --fast "
       "--sharpness "

@@ -23,6 +23,7 @@ struct StreamOptions {
   std::vector<std::string> to;   ///< --to
   std::vector<std::string> sdp;  ///< --sdp
   live::SinkOptions sink;        ///< --mtu, --repeat, --bundle, --max-clients ...
+  std::vector<std::string> ice;  ///< --ice-server
   HeadChoices heads;             ///< --head, for the page
   live::ProgramOptions program;  ///< what is sent, and how it is coded
   std::string codec;             ///< --audio-codec
@@ -45,6 +46,12 @@ void add_options(OptionTable& cli, StreamOptions& options);
 
 /// Adds --allow-origin and --host-name: who may use a web server, and by which names.
 void add_guard_options(OptionTable& cli, web::WebOptions& options);
+
+/// Adds --ice-server.
+void add_ice_option(OptionTable& cli, std::vector<std::string>& servers);
+
+/// Makes the WebRTC of a web server use them. Errors: those of webrtc::add_ice_server().
+Result<void> use_ice_servers(const std::vector<std::string>& servers, web::WebOptions& options);
 
 /// Runs the command with them.
 Result<int> run(StreamOptions& options);

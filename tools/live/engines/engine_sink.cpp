@@ -3,6 +3,7 @@
 #include <cmath>
 #include <condition_variable>
 #include <cstdint>
+#include <ctime>
 #include <deque>
 #include <limits>
 #include <memory>
@@ -197,7 +198,9 @@ using media::LiveInfo;
 using media::LiveUnit;
 using Datagrams = PacedSender::Datagrams;
 
-constexpr const char* kSubject = "Animeme";
+// Six letters: some receivers take packets of a phone's length alone (live_link.h).
+constexpr const char* kSubject = "Avatar";
+constexpr double kDay = 86400;      // seconds
 constexpr double kRounding = 1e-4;  // frames: what rounding may do to a time
 
 fap::FillOptions shown(bool high_level) {
@@ -237,6 +240,17 @@ class FaceDecoder {
   PresetFitter presets_fitter_;
 };
 
+/// Seconds since midnight here.
+double time_of_day() {
+  const auto now = std::chrono::system_clock::now();
+  const std::time_t whole = std::chrono::system_clock::to_time_t(now);
+  std::tm local{};
+  if (::localtime_r(&whole, &local) == nullptr) return 0;
+  const auto since = now - std::chrono::system_clock::from_time_t(whole);
+  return 3600.0 * local.tm_hour + 60.0 * local.tm_min + local.tm_sec +
+         std::chrono::duration<double>(since).count();
+}
+
 /// Faces as datagrams.
 class FaceWriter {
  public:
@@ -266,7 +280,10 @@ class FaceWriter {
     packet_.values = face.face.arkit;
     packet_.rate = std::int32_t(std::min<std::uint32_t>(rate.num, 1u << 30));
     packet_.denominator = std::int32_t(std::min<std::uint32_t>(rate.den, 1u << 30));
-    const double frames = face.seconds * rate.frames_per_second();
+    if (address_.time_of_day && !midnight_) midnight_ = time_of_day() - face.seconds;
+    const double seconds = face.seconds + midnight_.value_or(0);
+    const double frames =
+        (midnight_ ? std::fmod(seconds, kDay) : seconds) * rate.frames_per_second();
     const double whole = std::floor(frames + kRounding);
     packet_.frame =
         std::int32_t(std::fmod(whole, double(std::numeric_limits<std::int32_t>::max())));
@@ -277,6 +294,7 @@ class FaceWriter {
 
   const EngineAddress address_;
   LiveLinkPacket packet_;
+  std::optional<double> midnight_;  // time of day at presentation time 0
   UnifiedWriter unified_;
 };
 

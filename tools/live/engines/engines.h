@@ -20,7 +20,8 @@
 /// | option | for | meaning |
 /// |---|---|---|
 /// | rate=15..120 | all | frames a second; sending: the stream's own, receiving: measured |
-/// | subject=NAME | livelink | name of the face; receiving: accept only this. "Animeme" |
+/// | subject=NAME | livelink | name of the face; receiving: accept only this. "Avatar" |
+/// | timecode=day, stream | livelink, to send | frames from midnight, or from the begin: stream |
 /// | names=arkit, vrm0, vrm1 | vmc, to send | JawOpen ..., A Blink_L Joy ..., aa blinkLeft ... |
 /// | bones=on, off | vmc, to send | send head and eyes; on |
 /// | prefix=NAME | osc, to send | before the name of a parameter; v2 |

@@ -18,7 +18,36 @@ Error unknown(const std::string& part) {
                         "turn=USER:PASSWORD@HOST:PORT and repeat=0..30");
 }
 
+// "HOST:PORT", also "[::1]:3478".
+bool is_place(const std::string& text) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == text.npos || colon == 0 || colon + 1 == text.size()) return false;
+  int port = 0;
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data() + colon + 1, end, port);
+  if (read.ec != std::errc() || read.ptr != end || port < 1 || port > 65535) return false;
+  return std::all_of(text.begin(), text.end(), [](char c) {
+    return c > ' ' && c <= '~' && c != '/' && c != '@' && c != '?';
+  });
+}
+
 }  // namespace
+
+Result<void> add_ice_server(const std::string& text, WebRtcOptions& options) {
+  const auto bad = [](const std::string& what) { return make_error(Code::invalid_argument, what); };
+  const bool stun = text.starts_with("stun:"), turn = text.starts_with("turn:");
+  const std::string rest = stun || turn ? text.substr(5) : std::string();
+  const std::size_t at = rest.rfind('@');
+  const std::size_t colon = rest.find(':');
+  const bool named = at != rest.npos && colon != rest.npos && colon > 0 && colon < at;
+  if (!(stun && is_place(rest)) && !(turn && named && is_place(rest.substr(at + 1)))) {
+    return bad("write it as stun:HOST:PORT or turn:USER:PASSWORD@HOST:PORT");
+  }
+  std::string& kept = stun ? options.stun : options.turn;
+  if (!kept.empty()) return bad("there is one server of each kind");
+  kept = rest;
+  return {};
+}
 
 Result<Where> parse_where(const std::string& url) {
   const std::size_t query = url.find('?');

@@ -30,6 +30,10 @@ struct WebRtcOptions {
   int repeat = 5;
 };
 
+/// Adds a server that helps to find a way, "stun:HOST:PORT" or "turn:USER:PASSWORD@HOST:PORT"; one
+/// of each kind. Errors: invalid_argument (another form, a second one of a kind).
+Result<void> add_ice_server(const std::string& text, WebRtcOptions& options);
+
 /// Does the module exist next to the program or in the installation? Does not load it.
 bool is_there();
 

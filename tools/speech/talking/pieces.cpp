@@ -83,7 +83,7 @@ struct Utterance {
   // Of who makes lines:
   UtteranceTimes times;
   From times_from = From::unknown;
-  std::unique_ptr<SoundEar> ear;
+  std::shared_ptr<SoundEar> ear;  // with the mutex of the stream; what it is is theirs
 };
 
 bool is_file(std::span<const std::uint8_t> bytes) {
@@ -424,6 +424,10 @@ void PieceStream::forget(std::uint64_t key) {
   auto& all = piece->utterance->pieces;
   const double old = piece->end() - kOldSound;
   while (!all.empty() && all.front()->released && all.front()->end() < old) all.pop_front();
+  // Megabytes, of which nothing is heard any more.
+  if (piece->utterance->over && (all.empty() || all.back()->released)) {
+    piece->utterance->ear.reset();
+  }
   if (piece->utterance->dropped) drop(*piece->utterance);
 }
 
@@ -522,10 +526,15 @@ Result<SpokenLine> PieceStream::Impl::make_sound(Piece& piece) {
   }
   std::optional<dam::Script> heard;
   if (!timed && utterance.times.known() < piece.end() - kKnown) {
-    if (!utterance.ear) utterance.ear = std::make_unique<SoundEar>(how.language);
-    heard = utterance.ear->hear(sounds, piece.start, piece.end());
+    std::shared_ptr<SoundEar> ear;
+    {
+      const std::lock_guard lock(mutex);
+      if (!utterance.ear) utterance.ear = std::make_shared<SoundEar>(how.language);
+      ear = utterance.ear;
+    }
+    heard = ear->hear(sounds, piece.start, piece.end());
     if (!heard) {
-      log.warn("the face cannot follow its sound (" + utterance.ear->why() + ")");
+      log.warn("the face cannot follow its sound (" + ear->why() + ")");
     }
     line.improvable = !over && (waits || !more);
   }

@@ -21,7 +21,7 @@ struct Scheme {
 };
 
 constexpr std::array<Scheme, 3> kSchemes{{
-    {"livelink://", Protocol::live_link, 11111, "rate=15..120, subject=NAME",
+    {"livelink://", Protocol::live_link, 11111, "rate=15..120, subject=NAME, timecode=day|stream",
      "rate=15..120, subject=NAME"},
     {"vmc://", Protocol::vmc, 39539, "rate=15..120, names=arkit|vrm0|vrm1, bones=on|off",
      "rate=15..120"},
@@ -78,6 +78,9 @@ std::string take_member(const std::string& name, const std::string& value, Engin
     out.names = value == "arkit"  ? ShapeNames::arkit
                 : value == "vrm1" ? ShapeNames::vrm1
                                   : ShapeNames::vrm0;
+  } else if (name == "timecode") {
+    if (value != "day" && value != "stream") return "timecode is day or stream";
+    out.time_of_day = value == "day";
   } else if (name == "bones" || name == "gaze") {
     if (value != "on" && value != "off") return name + " is on or off";
     (name == "bones" ? out.bones : out.gaze) = value == "on";

@@ -20,6 +20,7 @@ struct EngineAddress {
   int port = 0;
   std::optional<int> rate;             ///< frames a second
   std::optional<std::string> subject;  ///< Live Link
+  bool time_of_day = false;            ///< Live Link: frames count from midnight
   ShapeNames names = ShapeNames::arkit;
   bool bones = true;
   std::string prefix = "v2";

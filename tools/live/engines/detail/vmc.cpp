@@ -80,7 +80,9 @@ VmcState::Effect VmcState::take(const OscMessage& message) {
     return Effect::some;
   }
   if (message.address == "/VMC/Ext/Blend/Val") {
-    const std::string name = message.text(0);
+    constexpr std::string_view kPart = "BlendShape.";  // of files of VRM; some hand it on
+    std::string name = message.text(0);
+    if (name.starts_with(kPart)) name.erase(0, kPart.size());
     const auto value = message.number(1);
     if (!value) return Effect::none;
     const double weight = std::clamp(*value, 0.0, kMostWeight);
