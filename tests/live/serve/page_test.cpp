@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <thread>
@@ -87,6 +88,49 @@ TEST(PageOfAHead, OpensWithATicketAndByWebRtc) {
   ASSERT_TRUE((*server)->update("anna", other));
   EXPECT_TRUE(shows(browser, "animeme.state !== 'live'"));
   EXPECT_TRUE(shows(browser, "animeme.state === 'live'"));
+  (*server)->finish();
+}
+
+// ANIMEME_REDEPLOYS=10 for a table of times.
+TEST(PageOfAHead, ComesBackAfterEachRedeploy) {
+  if (Chromium::find().empty()) GTEST_SKIP() << "Chromium is not installed";
+  double load = 0;
+  if (getloadavg(&load, 1) == 1 && load > 20) GTEST_SKIP() << "this machine is too busy";
+  const char* wanted = std::getenv("ANIMEME_REDEPLOYS");
+  const int redeploys = wanted != nullptr ? std::atoi(wanted) : 2;
+  serve::ServerOptions options{.url = "http://127.0.0.1:0/"};
+  options.web.make_peer_connections = [] { return webrtc::make_peer_connections(); };
+  const std::vector<std::pair<std::string, serve::HeadSettings>> heads{{"anna", {}}};
+  auto server = serve::HeadServer::open(options, heads);
+  ASSERT_TRUE(server) << server.error().message;
+  options.url = (*server)->address();
+  Chromium browser;
+  ASSERT_TRUE(browser.is_open());
+  browser.open(options.url + "heads/anna/", 1000, 800, false);
+  EXPECT_TRUE(shows(browser, "animeme.blocked || animeme.state === 'live'"));
+  browser.evaluate("document.getElementById('sound').click()");
+  std::string times;
+  for (int i = 0; i < redeploys; ++i) {
+    ASSERT_TRUE(shows(browser, "animeme.state === 'live' && animeme.session.frames.length > 20"));
+    browser.evaluate(
+        "window.back = undefined; window.gone = undefined;"
+        "clearInterval(window.watch); window.watch = setInterval(() => {"
+        "  if (animeme.state !== 'live') window.gone = window.gone || performance.now();"
+        "  else if (window.gone) window.back = window.back || performance.now();"
+        "}, 10)");
+    ASSERT_TRUE((*server)->find("anna")->say({"Line."}));
+    (*server)->drain();
+    (*server)->finish();
+    server->reset();
+    std::this_thread::sleep_for(std::chrono::seconds(1));  // what a process takes to start
+    server = serve::HeadServer::open(options, heads);
+    ASSERT_TRUE(server) << server.error().message;
+    ASSERT_TRUE(shows(browser, "window.back !== undefined")) << i;
+    times += " " + std::to_string(int(
+                       browser.evaluate("Math.round(window.back - window.gone)").get<double>()));
+  }
+  std::printf("ms until the page is live again, of which the server is away for 1000:%s\n",
+              times.c_str());
   (*server)->finish();
 }
 

@@ -424,7 +424,6 @@ void PieceStream::forget(std::uint64_t key) {
   auto& all = piece->utterance->pieces;
   const double old = piece->end() - kOldSound;
   while (!all.empty() && all.front()->released && all.front()->end() < old) all.pop_front();
-  // Megabytes, of which nothing is heard any more.
   if (piece->utterance->over && (all.empty() || all.back()->released)) {
     piece->utterance->ear.reset();
   }
@@ -496,7 +495,7 @@ Result<SpokenLine> PieceStream::Impl::make_sound(Piece& piece) {
   Utterance& utterance = *piece.utterance;
   std::vector<Labels> unread;
   std::vector<std::shared_ptr<Piece>> kept;  // so that their sound stays
-  bool over = false, waits = false, more = false;
+  bool over = false, waits = false, more = false, ends = false;
   ScriptInput how;
   {
     const std::lock_guard lock(mutex);
@@ -506,6 +505,7 @@ Result<SpokenLine> PieceStream::Impl::make_sound(Piece& piece) {
     how = reading(utterance.language);
     more = utterance.sound >= piece.end() + SoundEar::kLookAhead;
     piece.heard_all = more || over;
+    ends = over && piece.end() >= utterance.sound;
     waits = utterance.named && (utterance.told_alone || waits_for_times);
   }
   std::vector<SoundEar::Piece> sounds;
@@ -548,6 +548,10 @@ Result<SpokenLine> PieceStream::Impl::make_sound(Piece& piece) {
   Result<media::Pcm> sound = converted(piece, sounds, made_rate);
   line.speech.audio = sound ? std::move(*sound) : *piece.sound;
   utterance.times.forget(piece.start - 2 * kOldSound);
+  if (ends) {  // megabytes, of which nothing more is heard
+    const std::lock_guard lock(mutex);
+    utterance.ear.reset();
+  }
   return line;
 }
 

@@ -64,7 +64,7 @@ function steer(media, buffer) {
   media.playbackRate = buffer.hurries ? 1 + Math.min(0.2, Math.max(0.05, off / 2)) : off < -0.2 ? 0.96 : 1;
 }
 
-const kRetry = [0.5, 1, 2, 4];  // seconds
+const kRetry = [0.25, 0.5, 0.5, 0.5, 1, 1, 2, 4];  // seconds
 
 // One connection to the server. `heard()`: it has begun to speak.
 async function session(url, {media, silent, track, signal, told}, heard) {
@@ -127,7 +127,8 @@ export async function openLive(url, source) {
     } catch (problem) {
       if (problem.code !== 'io' || !known || source.signal.aborted) throw problem;
       source.lost?.(problem);
-      await new Promise((done) => setTimeout(done, 1000 * kRetry[Math.min(attempt, kRetry.length - 1)]));
+      const wait = kRetry[Math.min(attempt, kRetry.length - 1)] * (0.75 + Math.random() / 2);  // not all at once
+      await new Promise((done) => setTimeout(done, 1000 * wait));
       if (source.signal.aborted) return undefined;
     }
   }

@@ -10,7 +10,8 @@ const Live = (() => {
   const kFirst = 3;        // seconds after the start that count for nothing: the page is being made
   const kKeep = 10;        // seconds of frames and sound that are kept behind
   const kStep = 200;       // milliseconds
-  const kRetry = [500, 1000, 2000, 4000];
+  // Milliseconds: a server that is replaced is away for two or three seconds.
+  const kRetry = [250, 500, 500, 500, 1000, 1000, 2000, 4000];
 
   // Of what belongs to this presentation: the ticket of the page is that of all of it.
   const ticket = new URLSearchParams(location.search).get('ticket');
@@ -80,7 +81,7 @@ const Live = (() => {
       this.running = true;
       this.events.state('lost', 'connection lost, trying again');
       const wait = kRetry[Math.min(this.attempt++, kRetry.length - 1)];
-      this.retry = setTimeout(() => this.start(), wait);
+      this.retry = setTimeout(() => this.start(), wait * (0.75 + Math.random() / 2));  // not all at once
     }
 
     end() {
