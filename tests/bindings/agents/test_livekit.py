@@ -275,3 +275,52 @@ def test_those_who_join_are_greeted_and_pages_are_told_the_clock(voice):
     begins = [clock["begins"] for clock in clocks if "begins" in clock]
     playing = [clock["playing"] for clock in clocks if "playing" in clock]
     assert begins[0] == 0 and begins[1] > len(samples) and begins == playing
+
+
+def test_who_joins_in_the_middle_of_an_utterance_sees_it(voice):
+    samples, rate = voice
+
+    class Person:
+        identity = "late"
+
+    async def talk():
+        room = rtc.Room()
+        sound = RoomSound(rate)
+        face = FaceOutput(sound, room, intra_seconds=0.4)
+        await say(face, samples, rate, random.Random(1))
+        face.flush()
+        sound.play()
+        await face.drained()
+        await say(face, samples, rate, random.Random(1))  # all of it is there long before it is heard
+        face.flush()
+        await face.drained()
+        await asyncio.sleep(0.6)
+        room.emit("participant_connected", Person())
+        await face.drained()
+        later = len(room.local_participant.published)
+        await say(face, samples, rate, random.Random(1))
+        face.flush()
+        await face.drained()
+        await face.aclose()
+        return room, later
+
+    room, later = asyncio.run(talk())
+    page, everybody = Page(), shown_of(room)
+    got = room.local_participant.sent_to["late"]
+    for topic, message in got:
+        page.take(topic, message)
+    assert page.hellos == 1 and len(page.segments) == 1
+    begins = page.segments[0]["begins"]
+    assert begins == everybody.segments[1]["begins"] > 0
+    playing, = [json.loads(m)["playing"] for t, m in got if t == CLOCK_TOPIC and "playing" in json.loads(m)]
+    assert 0.5 * rate < playing - begins < 60 * rate
+    # It begins at, or before, what is heard, less than an intra plane ago, and has all that is still to come.
+    times = page.segments[0]["times"]
+    assert times and times[-1] == everybody.segments[1]["times"][-1]
+    assert times[0] <= max(playing, begins) and (times[0] > begins or playing - begins < 0.5 * rate)
+    line = dict(everybody.faces)
+    assert all((values == line[time]).all() for time, values in page.faces)
+    # Then it gets what all get.
+    for topic, message in room.local_participant.published[later:]:
+        page.take(topic, message)
+    assert page.segments[-1]["times"] == everybody.segments[-1]["times"]

@@ -12,6 +12,7 @@ from __future__ import annotations
 import asyncio
 import json
 import logging
+import time
 from collections import deque
 from typing import Optional
 
@@ -25,6 +26,8 @@ logger = logging.getLogger("animeme.face")
 
 TOPIC = "animeme.face"  # binary: the messages of /face
 CLOCK_TOPIC = "animeme.clock"  # JSON: where on the clock of the face the sound is
+PLANE = bytes([0, 0, 1, 0xBB])  # a unit begins with it, but for the first of a stream
+JOIN = "join"  # no topic: who has joined is to be sent what is said now
 
 
 class FaceOutput(io.AudioOutput):
@@ -59,6 +62,11 @@ class FaceOutput(io.AudioOutput):
         self._uncut = False  # an interruption that the face does not know yet
         self._missed = False  # messages that were not sent
         self._failed = False
+        # Of the segment, as it was sent, for those who join in the middle of it: what begins it, units by their
+        # times, and when the sound of which sample began to play.
+        self._face_begun: list[tuple] = []
+        self._face_sent: list[tuple] = []  # (time, intra, message)
+        self._face_started: Optional[tuple[float, int]] = None
         room.on("participant_connected", self._on_participant)
 
     async def capture_frame(self, frame: rtc.AudioFrame) -> None:
@@ -140,10 +148,15 @@ class FaceOutput(io.AudioOutput):
         if self._tasks:
             asyncio.ensure_future(notify())
 
-    def _on_participant(self, _: object = None) -> None:
-        if self._track:
+    def _on_participant(self, participant: object = None) -> None:
+        if self._track is None:
+            return
+        identity = getattr(participant, "identity", "")
+        if not identity:  # all know it already, or ignore it
             self._out.appendleft((TOPIC, True, self._track.hello()))
-            self._wake()
+        elif not self._destinations or identity in self._destinations:
+            self._out.appendleft((JOIN, True, identity.encode()))
+        self._wake()
 
     def _clock(self, **what) -> tuple:
         return (CLOCK_TOPIC, True, json.dumps({"segment": self._track.segment, **what}).encode())
@@ -222,7 +235,55 @@ class FaceOutput(io.AudioOutput):
             await self._publish(*await self._take("_out"))
             await self._done()
 
+    def _keep(self, topic: str, intra: bool, message: bytes) -> None:
+        """What was sent, for those who join."""
+        if topic == CLOCK_TOPIC:
+            told = json.loads(message)
+            if "playing" in told:
+                self._face_started = (time.monotonic(), told["playing"])
+            elif "cut" in told:
+                self._face_begun = [(topic, message)]
+            else:
+                self._face_begun, self._face_sent, self._face_started = [(topic, message)], [], None
+        elif message[0] != 0x41:
+            at = int.from_bytes(message[:8], "big")
+            while self._face_sent and self._face_sent[-1][0] >= at:
+                self._face_sent.pop()
+            self._face_sent.append((at, intra, message))
+
+    def _for_newcomer(self) -> list[tuple]:
+        """The segment from the face on that is to be seen now: units are sent long before they are due."""
+        track, shown = self._track, 0
+        messages = [(TOPIC, track.hello()), *self._face_begun]
+        if self._face_started:
+            began, sample = self._face_started
+            shown = sample + round((time.monotonic() - began) * track.sample_rate)
+            messages.append((CLOCK_TOPIC, self._clock(playing=shown)[2]))
+        first = 0
+        for number, (at, intra, _) in enumerate(self._face_sent):
+            if intra and (at <= shown or number == 0):
+                first = number
+        units = [message for _, _, message in self._face_sent[first:]]
+        if units and units[0][13:].startswith(PLANE):  # in the middle of a stream: with what that began with
+            for _, _, message in reversed(self._face_sent[:first]):
+                if not message[13:].startswith(PLANE):
+                    head = message[13:message.index(PLANE, 13)]
+                    units[0] = units[0][:13] + head + units[0][13:]
+                    break
+        return messages + [(TOPIC, message) for message in units]
+
+    async def _greet(self, identity: str) -> None:
+        for topic, message in self._for_newcomer():
+            await self._room.local_participant.publish_data(message, reliable=True, topic=topic,
+                                                            destination_identities=[identity])
+
     async def _publish(self, topic: str, intra: bool, message: bytes) -> None:
+        if topic == JOIN:
+            try:
+                await self._greet(message.decode())
+            except Exception as problem:
+                logger.debug("who has joined was not greeted: %s", problem)
+            return
         unit = topic == TOPIC and message[0] != 0x41
         if unit and self._missed:
             if not intra:
@@ -231,6 +292,7 @@ class FaceOutput(io.AudioOutput):
         try:
             await self._room.local_participant.publish_data(message, reliable=True, topic=topic,
                                                             destination_identities=self._destinations)
+            self._keep(topic, intra, message)
         except Exception as problem:  # not connected just now: on with the next plane where one can begin
             logger.debug("a message of the face was not sent: %s", problem)
             self._missed = self._missed or unit

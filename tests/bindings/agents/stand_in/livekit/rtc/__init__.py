@@ -42,7 +42,8 @@ class AudioFrame:
 
 class LocalParticipant:
     def __init__(self):
-        self.published = []  # (topic, bytes)
+        self.published = []  # (topic, bytes), to all
+        self.sent_to = defaultdict(list)  # the same, to one alone
         self.gate = asyncio.Event()  # closed: the network is slow
         self.gate.set()
         self.broken = False
@@ -52,7 +53,11 @@ class LocalParticipant:
         if self.broken:
             raise ConnectionError("not connected")
         assert isinstance(payload, bytes) and reliable
-        self.published.append((topic, payload))
+        if destination_identities:
+            for identity in destination_identities:
+                self.sent_to[identity].append((topic, payload))
+        else:
+            self.published.append((topic, payload))
 
 
 class Room(EventEmitter):
