@@ -234,6 +234,33 @@ TEST(Landmarks, PointsThatAreNotSeenLeaveTheirFapsOut) {
   EXPECT_EQ(face->clip.frames[1].value[3], 200);
 }
 
+// The pose of the head comes from its other points.
+TEST(Landmarks, APointOfTheSkullThatIsNotSeenLeavesTheFapsAsTheyAre) {
+  for (const char* hidden : {"3.7", "3.8", "3.11", "3.12"}) {
+    LandmarkTrack track = empty_track(true);
+    Frame frame;
+    frame.number = 1;
+    frame.set(3, 200);
+    frame.set(49, 20000);
+    track.frames = {seen(track, {}, {}), seen(track, frame, {})};
+    const auto whole = landmarks_to_fap(track, {{0}, 0, false});
+    const auto at = std::find(track.points.begin(), track.points.end(), hidden);
+    ASSERT_NE(at, track.points.end());
+    track.frames[1].at[std::size_t(at - track.points.begin())] = {kNotSeen, kNotSeen, kNotSeen};
+    const auto face = landmarks_to_fap(track, {{0}, 0, false});
+    ASSERT_TRUE(whole && face);
+    EXPECT_EQ(face->lost, 0U) << hidden;
+    ASSERT_EQ(face->clip.frames.size(), 2U) << hidden;
+    for (const int fap : {3, 49}) {
+      EXPECT_TRUE(face->clip.frames[1].mask[std::size_t(fap)]) << hidden << ", FAP " << fap;
+      EXPECT_NEAR(face->clip.frames[1].value[std::size_t(fap)],
+                  whole->clip.frames[1].value[std::size_t(fap)],
+                  2 + std::abs(frame.value[std::size_t(fap)]) / 100)
+          << hidden << ", FAP " << fap;
+    }
+  }
+}
+
 // Eyes that look at the camera while the head turns away turn back against it.
 TEST(Landmarks, GazeIsAgainstTheHead) {
   for (const bool depth : {true, false}) {
