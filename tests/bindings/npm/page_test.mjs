@@ -30,7 +30,8 @@ await animeme.ready();
 const browser = await launch({flags: ['--use-angle=swiftshader', '--enable-unsafe-swiftshader',
   '--ignore-gpu-blocklist']}).catch(() => skip('chromium is missing (Debian package chromium)'));
 const server = await serve({'/animeme/': folder, '/three/': `${modules}/three`, '/axe/': `${modules}/axe-core`,
-  '/tests/': `${source}/tests/bindings/npm`, '/cases/': cases, '/media/': dir, '/avatars/': avatars});
+  '/tests/': `${source}/tests/bindings/npm`, '/cases/': cases, '/media/': dir, '/avatars/': avatars,
+  '/samples/': `${source}/tools/release/samples`});
 after(async () => {
   await browser.close();
   await server.close();
@@ -288,6 +289,24 @@ test('what a live head says is told when it is heard', async () => {
   } finally {
     sender.kill();
   }
+});
+
+test('a head that meshopt has compressed', async () => {
+  const page = await open();
+  await put(page, {src: '/media/talk.fba', head: '/samples/me.glb'});
+  await page.evaluate('face.headLoaded.then(() => true)');
+  await page.evaluate('face.loaded.then(() => true)');
+  const {most, vertices} = await page.evaluate(async () => {
+    face.currentTime = 0.5;
+    for (let i = 0; i < 5; ++i) await new Promise(requestAnimationFrame);
+    const {head} = face.viewport;
+    return {most: Math.max(...[...head.shapes, ...head.visemes].map(({node, index}) => node.morphTargetInfluences[index])),
+      vertices: Math.max(...head.shapes.map(({node}) => node.geometry.attributes.position.count))};
+  });
+  assert.ok(most > 0.1, `${most}`);
+  assert.ok(vertices > 3000, `${vertices}`);
+  if (process.env.ANIMEME_PICTURES) await page.screenshot(join(process.env.ANIMEME_PICTURES, 'me.png'));
+  await page.close();
 });
 
 for (const name of ['arkit_and_visemes', 'visemes_only', 'brunette-t']) {

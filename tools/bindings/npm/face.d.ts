@@ -1,4 +1,5 @@
-// <animeme-face>: importing this module defines it. It imports 'three' and 'three/addons/loaders/GLTFLoader.js'.
+// <animeme-face>: importing this module defines it. It imports 'three', and of 'three/addons/' the loader of
+// glTF and the decoder of meshopt.
 import type {Frame, Track} from './index.js';
 
 /**

@@ -68,5 +68,7 @@ printf 'id\ttext\tlang\nhello\tHello world\ten\nhallo\tGuten Tag\tde\n' >clips.t
 run head woman -o woman.glb
 run head woman -o woman.obj
 python3 "$folder/make.py"
-rm -f woman.* one.mp4 two.mp4 three.mp4 four.mp4 curves.csv voice.tsv
+npm install --silent --no-save --prefix npm meshoptimizer@1.3.0
+node "$folder/make_head.mjs" "$work/npm/node_modules/meshoptimizer"
+rm -rf npm woman.* one.mp4 two.mp4 three.mp4 four.mp4 curves.csv voice.tsv
 cp -r ./* "$folder/"

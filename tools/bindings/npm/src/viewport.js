@@ -1,5 +1,6 @@
 // A canvas with a head in it.
 import {DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, Vector3, WebGLRenderer} from 'three';
+import {MeshoptDecoder} from 'three/addons/libs/meshopt_decoder.module.js';
 import {GLTFLoader} from 'three/addons/loaders/GLTFLoader.js';
 
 import {Head} from './head.js';
@@ -18,7 +19,7 @@ export class Viewport {
 
   /** Shows a .glb in place of the one before. */
   async loadHead(url) {
-    const {scene} = await new GLTFLoader().loadAsync(url);
+    const {scene} = await new GLTFLoader().setMeshoptDecoder(MeshoptDecoder).loadAsync(url);
     const head = new Head(scene);
     this.removeHead();
     this.head = head;
