@@ -172,7 +172,7 @@ Result<int> write_result(const SpeakOptions& options, const fap::Sequence& clip,
   }
   Result<fba::AccessUnits> units = access_units({clip, {}}, options.stream);
   if (!units) return units.error();
-  if (!spoken.audio) warn("there is no recorded voice (--audio): the file will be silent");
+  if (!spoken.has_sound()) warn("there is no recorded voice (--audio): the file will be silent");
   media::MuxOptions mux;
   mux.audio = audio_settings(options.sound, options.output);
   mux.text_track = media::TextTrackType::metadata;
@@ -287,6 +287,8 @@ Json closures_json(const std::optional<LipClosures>& lips, double start, double 
 
 // What is told of the face that was written first.
 struct ShownFace {
+  std::size_t frames = 0;
+  double seconds = 0;
   std::optional<dam::OverReport> over;
   std::optional<LipClosures> lips;
 };
@@ -316,8 +318,7 @@ Json over_json(const dam::OverReport& over) {
 }
 
 Json report_json(const SpeakOptions& options, const speech::Spoken& spoken,
-                 const dam::Signal& signal, const dam::SynthesisReport& synthesis,
-                 const ShownFace& shown) {
+                 const dam::SynthesisReport& synthesis, const ShownFace& shown) {
   Json replaced = Json::object();
   for (const auto& [label, by] : synthesis.replaced) replaced[label] = by;
   const bool heard = spoken.heard.has_value();
@@ -327,8 +328,8 @@ Json report_json(const SpeakOptions& options, const speech::Spoken& spoken,
                {"approximate", is_approximate(spoken)},
                {"confidence", confidence_of(spoken)},
                {"doubtful_words", doubtful_words(spoken)},
-               {"seconds", signal.rate.seconds(double(signal.frames()))},
-               {"frames", signal.frames()},
+               {"seconds", shown.seconds},
+               {"frames", shown.frames},
                {"phones", synthesis.phones},
                {"replaced_phones", synthesis.replaced_phones},
                {"replaced", replaced},
@@ -374,13 +375,12 @@ std::string name_beside(const std::string& output, const std::string& file) {
 }
 
 Result<void> report(const SpeakOptions& options, const speech::Spoken& spoken,
-                    const dam::Signal& signal, const dam::SynthesisReport& synthesis,
-                    const ShownFace& shown) {
+                    const dam::SynthesisReport& synthesis, const ShownFace& shown) {
   for (const auto& [label, by] : synthesis.replaced) {
     say_more("the model has no phone " + label + ": it is spoken as " + by);
   }
   if (!options.json && options.report.empty()) return {};
-  Json json = report_json(options, spoken, signal, synthesis, shown);
+  Json json = report_json(options, spoken, synthesis, shown);
   if (options.json) std::printf("%s\n", pretty(json).c_str());
   if (options.report.empty()) return {};
   json["output"] = name_beside(options.outputs.front(), options.report);
@@ -522,6 +522,7 @@ Result<int> run(SpeakOptions& options) {
     const auto range = speech::parse_fit_range(options.fit);
     if (!range) return range.error();
     options.spoken.fit = *range;
+    options.spoken.fit_to_file = true;
   }
   Result<fap::Rate> rate = fap::parse_rate(options.rate);
   if (!rate) return rate.error();
@@ -549,8 +550,8 @@ Result<int> run(SpeakOptions& options) {
   dam::SynthesisOptions settings = options.motion;
   settings.rate = *rate;
   settings.closure = !options.no_closure;
-  if (spoken->audio) {
-    settings.tail = std::max(0.0, spoken->audio->duration() - spoken->script.duration());
+  if (spoken->has_sound()) {
+    settings.tail = std::max(0.0, spoken->sound_seconds() - spoken->script.duration());
   }
   dam::SynthesisReport synthesis;
   Result<dam::Signal> signal = speech::move_face(*model, *spoken, settings, &synthesis);
@@ -559,12 +560,19 @@ Result<int> run(SpeakOptions& options) {
   }
   Result<int> written = kOk;
   ShownFace shown;
+  shown.frames = signal->frames();
+  shown.seconds = signal->rate.seconds(double(signal->frames()));
   SpeakOptions one = options;
-  if (spoken->audio && options.idle.on.value_or(true))
-    one.prosody = voice::measure_prosody(*spoken->audio);
+  if (options.idle.on.value_or(true)) {
+    one.prosody = std::move(spoken->prosody);
+    if (spoken->audio) one.prosody = voice::measure_prosody(*spoken->audio);
+  }
+  // A file is read again while it is written.
+  if (!spoken->recording.empty() && spoken->audio) spoken->audio->samples = {};
   for (const std::string& output : options.outputs) {
     one.output = output;
-    written = write_output(one, *signal, *spoken, shown);
+    const bool last = &output == &options.outputs.back();
+    written = write_output(one, last ? std::move(*signal) : *signal, *spoken, shown);
     if (!written || *written != kOk) return written;
   }
   // Last, so that a failure leaves no file behind.
@@ -573,7 +581,7 @@ Result<int> run(SpeakOptions& options) {
         spoken->script, spoken->marks, extension_of(options.save_script), doubts_of(*spoken));
     if (auto done = write_file(options.save_script, text); !done) return done.error();
   }
-  if (auto done = report(options, *spoken, *signal, synthesis, shown); !done) return done.error();
+  if (auto done = report(options, *spoken, synthesis, shown); !done) return done.error();
   return written;
 }
 

@@ -80,6 +80,30 @@ class AudioReader {
 /// Errors: invalid_argument (a rate outside 1000..384000), out_of_range (memory).
 Result<Pcm> resample(const Pcm& pcm, int sample_rate);
 
+/// Writes a 16-bit WAV file piece by piece, to a place of its own: not whole or not at all.
+///
+///     auto file = WavWriter::open(path, 22050);
+///     file->write(samples);
+///     file->finish();
+class WavWriter {
+ public:
+  /// Errors: invalid_argument (sample rate not positive), io.
+  static Result<WavWriter> open(const std::string& path, int sample_rate);
+  WavWriter(WavWriter&&) noexcept;  ///< movable
+  WavWriter& operator=(WavWriter&&) noexcept;
+  ~WavWriter();
+
+  /// One channel; values as in write_wav(). Errors: out_of_range (over 4 GB), io.
+  Result<void> write(std::span<const float> samples);
+  /// Completes the header and closes the file. Errors: io.
+  Result<void> finish();
+
+ private:
+  struct Impl;
+  explicit WavWriter(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
 /// Writes a 16-bit WAV file, whole or not at all. Values outside +-1 are clipped, NaN is 0.
 /// Errors: invalid_argument (sample rate not positive), out_of_range (over 4 GB), io.
 Result<void> write_wav(const std::string& path, const Pcm& pcm);

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <memory>
+#include <span>
+#include <utility>
 
 #include "tools/formats/files/output_file.h"
 #include "tools/formats/media/audio.h"
@@ -43,14 +46,14 @@ std::int16_t to_s16(float sample) {
   return std::int16_t(std::lround(std::clamp(double(sample) * 32768.0, -32768.0, 32767.0)));
 }
 
-bool write_samples(std::FILE* file, const Pcm& pcm) {
+bool write_samples(std::FILE* file, std::span<const float> samples) {
   std::vector<std::uint8_t> block;
   constexpr std::size_t kBlock = 32768;
-  for (std::size_t at = 0; at < pcm.samples.size(); at += kBlock) {
-    const std::size_t end = std::min(at + kBlock, pcm.samples.size());
+  for (std::size_t at = 0; at < samples.size(); at += kBlock) {
+    const std::size_t end = std::min(at + kBlock, samples.size());
     block.clear();
     for (std::size_t i = at; i < end; ++i) {
-      const auto value = std::uint16_t(to_s16(pcm.samples[i]));
+      const auto value = std::uint16_t(to_s16(samples[i]));
       block.push_back(std::uint8_t(value & 255));
       block.push_back(std::uint8_t(value >> 8));
     }
@@ -59,11 +62,18 @@ bool write_samples(std::FILE* file, const Pcm& pcm) {
   return true;
 }
 
+constexpr std::size_t kMostSamples = (0xffffffffu - kHeaderSize) / 2;
+
+Error cannot_write(const std::string& path, int reason) {
+  return make_error(Code::io, std::string("cannot be written: ") + std::strerror(reason))
+      .in_file(path);
+}
+
 Result<void> write(const std::string& path, const Pcm& pcm) {
   if (pcm.sample_rate <= 0) {
     return make_error(Code::invalid_argument, "the sample rate must be positive").in_file(path);
   }
-  if (pcm.samples.size() > (0xffffffffu - kHeaderSize) / 2) {
+  if (pcm.samples.size() > kMostSamples) {
     return make_error(Code::out_of_range, "a WAV file cannot be larger than 4 GB").in_file(path);
   }
   tools::OutputFile out(path);
@@ -75,17 +85,14 @@ Result<void> write(const std::string& path, const Pcm& pcm) {
     const Header header =
         make_header(std::uint32_t(pcm.sample_rate), std::uint32_t(pcm.samples.size() * 2));
     good = std::fwrite(header.data(), 1, header.size(), file) == header.size() &&
-           write_samples(file, pcm);
+           write_samples(file, pcm.samples);
   }
   int reason = errno;
   if (file != nullptr && std::fclose(file) != 0) {
     if (good) reason = errno;
     good = false;
   }
-  if (!good) {
-    return make_error(Code::io, std::string("cannot be written: ") + std::strerror(reason))
-        .in_file(path);
-  }
+  if (!good) return cannot_write(path, reason);
   return out.publish();
 }
 
@@ -93,6 +100,57 @@ Result<void> write(const std::string& path, const Pcm& pcm) {
 
 Result<void> write_wav(const std::string& path, const Pcm& pcm) {
   return av::guarded([&] { return write(path, pcm); });
+}
+
+struct WavWriter::Impl {
+  std::string path;
+  int sample_rate = 0;
+  std::FILE* file = nullptr;
+  std::size_t samples = 0;
+
+  Impl(std::string name, int rate) : path(std::move(name)), sample_rate(rate) {}
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+  ~Impl() {
+    if (file != nullptr) std::fclose(file);
+  }
+  bool put_header() const {
+    const Header header = make_header(std::uint32_t(sample_rate), std::uint32_t(samples * 2));
+    return std::fwrite(header.data(), 1, header.size(), file) == header.size();
+  }
+};
+
+WavWriter::WavWriter(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+WavWriter::WavWriter(WavWriter&&) noexcept = default;
+WavWriter& WavWriter::operator=(WavWriter&&) noexcept = default;
+WavWriter::~WavWriter() = default;
+
+Result<WavWriter> WavWriter::open(const std::string& path, int sample_rate) {
+  if (sample_rate <= 0) {
+    return make_error(Code::invalid_argument, "the sample rate must be positive").in_file(path);
+  }
+  auto impl = std::make_unique<Impl>(path, sample_rate);
+  impl->file = std::fopen(path.c_str(), "wbe");
+  if (impl->file == nullptr || !impl->put_header()) return cannot_write(path, errno);
+  return WavWriter(std::move(impl));
+}
+
+Result<void> WavWriter::write(std::span<const float> samples) {
+  if (samples.size() > kMostSamples - impl_->samples) {
+    return make_error(Code::out_of_range, "a WAV file cannot be larger than 4 GB")
+        .in_file(impl_->path);
+  }
+  if (!write_samples(impl_->file, samples)) return cannot_write(impl_->path, errno);
+  impl_->samples += samples.size();
+  return {};
+}
+
+Result<void> WavWriter::finish() {
+  bool good = std::fseek(impl_->file, 0, SEEK_SET) == 0 && impl_->put_header();
+  const int reason = errno;
+  good = std::fclose(std::exchange(impl_->file, nullptr)) == 0 && good;
+  if (!good) return cannot_write(impl_->path, reason);
+  return {};
 }
 
 }  // namespace animeme::media

@@ -117,11 +117,11 @@ Result<voice::Speech> speak_within(std::size_t cue, double wanted, const SpeakAt
   }
 }
 
-// Appends a speech that begins at `start` seconds.
-void place_speech(voice::Speech& all, voice::Speech one, double start) {
+// Appends a speech that begins at `start` seconds. `given`: samples that are no longer in `all`.
+void place_speech(voice::Speech& all, voice::Speech one, double start, std::size_t given) {
   const double rate = all.audio.sample_rate;
-  const auto first = std::size_t(std::llround(start * rate));
-  all.audio.samples.resize(std::max(all.audio.samples.size(), first), 0.0f);
+  const auto first = std::max(given, std::size_t(std::llround(start * rate)));
+  all.audio.samples.resize(std::max(all.audio.samples.size(), first - given), 0.0f);
   const double at = double(first) / rate;
   if (at > all.script.duration()) {
     all.script.phones.push_back({all.script.duration(), at, std::string(dam::kSilence), {}});
@@ -193,10 +193,11 @@ Result<FitRange> parse_fit_range(const std::string& text) {
 }
 
 Result<FittedSpeech> fit_cues(const std::vector<Cue>& cues, const SpeakAtSpeed& speak,
-                              const FitRange& range) {
+                              const FitRange& range, const TakeSound& take) {
   if (auto ok = check_cues(cues, range); !ok) return ok.error();
   FittedSpeech all;
-  double free = 0;  // end of what is said
+  double free = 0;        // end of what is said
+  std::size_t given = 0;  // samples that were taken
   for (std::size_t i = 0; i < cues.size(); ++i) {
     FittedCue fitted;
     fitted.cue = cues[i];
@@ -214,7 +215,7 @@ Result<FittedSpeech> fit_cues(const std::vector<Cue>& cues, const SpeakAtSpeed& 
     if (i == 0) {
       all.speech.audio.sample_rate = speech->audio.sample_rate;
       // At once: what grows by itself takes up to three times as much.
-      const double longest = cues.back().end + 1;
+      const double longest = take ? 0 : cues.back().end + 1;
       all.speech.audio.samples.reserve(std::size_t(longest * speech->audio.sample_rate));
     }
     fitted.seconds = speech->audio.duration();
@@ -226,7 +227,13 @@ Result<FittedSpeech> fit_cues(const std::vector<Cue>& cues, const SpeakAtSpeed& 
       fitted.late = fitted.late > 2 * kFitSlack ? fitted.late : 0;
     }
     free = fitted.start + fitted.seconds;
-    place_speech(all.speech, std::move(*speech), fitted.start);
+    place_speech(all.speech, std::move(*speech), fitted.start, given);
+    if (take) {
+      std::vector<float>& samples = all.speech.audio.samples;
+      if (auto taken = take(samples, all.speech.audio.sample_rate); !taken) return taken.error();
+      given += samples.size();
+      samples.clear();
+    }
     all.cues.push_back(std::move(fitted));
   }
   return all;

@@ -66,14 +66,18 @@ voice::Speech stretched_part(const media::Pcm& audio, const dam::Script& script,
 /// Speaks a cue, counted from 0, at a share of the usual speed, without silence around it.
 using SpeakAtSpeed = std::function<Result<voice::Speech>(std::size_t cue, double speed)>;
 
+/// Receives the sound piece by piece, with its rate; an error ends the work.
+using TakeSound = std::function<Result<void>(std::span<const float> samples, int sample_rate)>;
+
 /// Speaks each cue in its time. What is shorter than its time is said more slowly, down to the
 /// range. What is longer loses first of its pauses (of all above 0.06 s as much as needed), then it
 /// is said faster, up to the range. What is too long even then is not cut: it ends late, at the
 /// cost of the pause behind it, and moves the next one if that is not enough; `late` and `cut` tell
 /// of it. Errors: invalid_argument (no cues, cues that do not ascend, the range), out_of_range
-/// (more than a day), those of `speak`, with the number of the cue.
+/// (more than a day), those of `speak`, with the number of the cue, and of `take`. With `take` the
+/// sound goes there, and FittedSpeech::speech has none.
 Result<FittedSpeech> fit_cues(const std::vector<Cue>& cues, const SpeakAtSpeed& speak,
-                              const FitRange& range = {});
+                              const FitRange& range = {}, const TakeSound& take = {});
 
 /// Where a recording says a cue.
 struct RecordedCue {

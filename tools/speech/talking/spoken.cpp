@@ -11,9 +11,11 @@
 #include "tools/formats/files/cost.h"
 #include "tools/formats/files/file_cache.h"
 #include "tools/formats/files/files.h"
+#include "tools/formats/media/audio.h"
 #include "tools/formats/scripts/script_text.h"
 #include "tools/speech/talking/written_text.h"
 #include "tools/speech/text/mood_marks.h"
+#include "tools/speech/voice/pitch.h"
 
 namespace animeme::speech {
 
@@ -145,15 +147,68 @@ void tell_of_long_cues(const std::vector<FittedCue>& cues, const SpokenOptions& 
   }
 }
 
-// Time to close the mouth.
-void end_silently(voice::Speech& speech) {
-  constexpr double kTail = 0.4;
-  const double end = speech.audio.duration();
-  speech.audio.samples.resize(speech.audio.samples.size() +
-                              std::size_t(kTail * speech.audio.sample_rate));
+constexpr double kTail = 0.4;  // seconds to close the mouth
+
+// `end`: of the sound, seconds.
+void end_silently(voice::Speech& speech, double end) {
   speech.script.phones.push_back(
       {std::max(end, speech.script.duration()), end + kTail, std::string(dam::kSilence), {}});
 }
+
+std::vector<float> tail_of(int sample_rate) {
+  return std::vector<float>(std::size_t(kTail * sample_rate), 0.0f);
+}
+
+void end_silently(voice::Speech& speech) {
+  end_silently(speech, speech.audio.duration());
+  const std::vector<float> tail = tail_of(speech.audio.sample_rate);
+  speech.audio.samples.insert(speech.audio.samples.end(), tail.begin(), tail.end());
+}
+
+// The sound of cues in a file, and its prosody.
+class CueFile {
+ public:
+  static Result<std::unique_ptr<CueFile>> make() {
+    auto folder = tools::ScratchFolder::make();
+    if (!folder) return folder.error();
+    auto file = std::make_unique<CueFile>();
+    file->folder_ = std::move(*folder);
+    return file;
+  }
+  Result<void> take(std::span<const float> samples, int sample_rate) {
+    if (!wav_) {
+      auto opened = media::WavWriter::open(path(), sample_rate);
+      if (!opened) return opened.error();
+      wav_ = std::move(*opened);
+      meter_.emplace(sample_rate);
+      rate_ = sample_rate;
+    }
+    meter_->push(samples);
+    samples_ += samples.size();
+    return wav_->write(samples);
+  }
+  double seconds() const { return double(samples_) / double(std::max(1, rate_)); }
+  std::uint64_t bytes() const { return 2 * samples_; }
+  // Once.
+  Result<void> give_to(Spoken& spoken) {
+    if (auto taken = take(tail_of(rate_), rate_); !taken) return taken;
+    if (auto done = wav_->finish(); !done) return done;
+    spoken.recording = path();
+    spoken.file_seconds = seconds();
+    spoken.prosody = meter_->finish();
+    spoken.folder = std::move(folder_);
+    return {};
+  }
+
+ private:
+  std::string path() const { return folder_->file("voice.wav"); }
+
+  std::unique_ptr<tools::ScratchFolder> folder_;
+  std::optional<media::WavWriter> wav_;
+  std::optional<voice::ProsodyMeter> meter_;
+  std::uint64_t samples_ = 0;
+  int rate_ = 0;
+};
 
 Result<Spoken> speak_cues(const SpokenOptions& options, const tools::Log& log) {
   tools::AtStep step(tools::Step::voice);
@@ -163,14 +218,26 @@ Result<Spoken> speak_cues(const SpokenOptions& options, const tools::Log& log) {
   const auto say = [&](std::size_t cue, double speed) {
     return speaker(cue, (*cues)[cue].text, speed);
   };
-  Result<FittedSpeech> fitted = fit_cues(*cues, say, *options.fit);
+  std::unique_ptr<CueFile> file;
+  TakeSound take;
+  if (options.fit_to_file) {
+    auto made = CueFile::make();
+    if (!made) return made.error();
+    file = std::move(*made);
+    take = [&file](std::span<const float> samples, int rate) { return file->take(samples, rate); };
+  }
+  Result<FittedSpeech> fitted = fit_cues(*cues, say, *options.fit, take);
   if (!fitted) return fitted.error().in_file(options.script);
   tell_of_long_cues(fitted->cues, options, log);
   voice::Speech& speech = fitted->speech;
-  end_silently(speech);
-  step.made(2 * speech.audio.samples.size());
-  Spoken spoken{
-      std::move(speech.script), std::move(speech.audio), speech.voice, TimesFrom::voice, {}, {}};
+  file ? end_silently(speech, file->seconds()) : end_silently(speech);
+  step.made(file ? file->bytes() : 2 * speech.audio.samples.size());
+  Spoken spoken{std::move(speech.script), std::nullopt, speech.voice, TimesFrom::voice, {}, {}};
+  if (!file) {
+    spoken.audio = std::move(speech.audio);
+  } else if (auto given = file->give_to(spoken); !given) {
+    return given.error();
+  }
   spoken.languages = std::move(speech.languages);
   spoken.moods = std::move(speech.moods);
   spoken.warnings = std::move(speech.warnings);

@@ -4,10 +4,12 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "dam/behaviour/prosody.h"
 #include "dam/model/model.h"
 #include "dam/script/mood.h"
 #include "dam/script/script.h"
@@ -16,6 +18,7 @@
 #include "fap/result.h"
 #include "tools/formats/files/log.h"
 #include "tools/formats/media/pcm.h"
+#include "tools/formats/programs/scratch_folder.h"
 #include "tools/speech/talking/cue_voice.h"
 #include "tools/speech/talking/timed_sound.h"
 #include "tools/speech/talking/voice_command.h"
@@ -50,13 +53,17 @@ struct SpokenOptions {
   /// subtitles are what it says: it is aligned with them, and put into their times if it is
   /// elsewhere (fit_recording()). nullopt: the script has its sound elsewhere.
   std::optional<FitRange> fit = std::nullopt;
+  /// The sound of such a voice goes to a file (Spoken::recording), so that memory does not grow
+  /// with it.
+  bool fit_to_file = false;
 };
 
 /// Speech as phones, with its sound.
 struct Spoken {
-  dam::Script script;                         ///< timed phones
-  std::optional<media::Pcm> audio;            ///< nullopt: a script without sound
-  std::string voice;                          ///< of synthetic speech
+  dam::Script script;  ///< timed phones
+  std::optional<media::Pcm>
+      audio;          ///< nullopt: a script without sound, or SpokenOptions::fit_to_file
+  std::string voice;  ///< of synthetic speech
   TimesFrom times = TimesFrom::voice;         ///< source of the timings
   std::optional<voice::Alignment> alignment;  ///< if aligned; without its script
   /// If only the sound was given; `script` is its best hypothesis.
@@ -69,6 +76,17 @@ struct Spoken {
   /// The file that `audio` is one channel of; empty: synthetic speech, or the file cannot be read
   /// again (a pipe).
   std::string recording;
+  /// @{
+  /// With SpokenOptions::fit_to_file: length and prosody of `recording`, and the folder that it is
+  /// in, which lives as long.
+  double file_seconds = 0;
+  std::optional<dam::Prosody> prosody;
+  std::shared_ptr<tools::ScratchFolder> folder;
+  /// @}
+
+  bool has_sound() const { return audio || folder; }  ///< in memory or in a file
+  /// Seconds; 0: no sound.
+  double sound_seconds() const { return audio ? audio->duration() : file_seconds; }
 };
 
 /// Whether a source is given completely.

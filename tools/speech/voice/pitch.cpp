@@ -17,26 +17,6 @@ constexpr float kQuiet = 0.01f;                 // of the loudest frame
 constexpr float kOctave = 0.25f;                // what a jump by an octave costs, in correlation
 constexpr float kLonger = 0.1f;                 // likewise, for the longest period: multiples
 
-// Every `ratio`th sample of two moving averages in a row.
-std::vector<float> thinned(const std::vector<float>& samples, std::size_t ratio) {
-  std::vector<float> summed = samples;
-  for (int pass = 0; pass < 2 && ratio > 1; ++pass) {
-    double sum = 0;
-    std::vector<float> out(summed.size());
-    for (std::size_t i = 0; i < summed.size(); ++i) {
-      sum += double(summed[i]);
-      if (i >= ratio) sum -= double(summed[i - ratio]);
-      out[i] = float(sum / double(ratio));
-    }
-    summed = std::move(out);
-  }
-  std::vector<float> thin;
-  thin.reserve(summed.size() / ratio + 1);
-  // The averages lag by ratio - 1 samples.
-  for (std::size_t i = ratio - 1; i < summed.size(); i += ratio) thin.push_back(summed[i]);
-  return thin;
-}
-
 float product(const float* a, const float* b, std::size_t count) {
   std::array<float, 8> sums = {};
   std::size_t i = 0;
@@ -103,19 +83,47 @@ std::vector<float> settled(const std::vector<float>& pitch) {
 
 }  // namespace
 
+float ProsodyMeter::Average::next(float sample) {
+  sum += double(sample);
+  sum -= double(last[at]);  // zeros in front
+  last[at] = sample;
+  at = at + 1 == last.size() ? 0 : at + 1;
+  return float(sum / double(last.size()));
+}
+
+ProsodyMeter::ProsodyMeter(int sample_rate)
+    : sample_rate_(sample_rate),
+      ratio_(std::size_t(std::max(1, sample_rate / kRate))),
+      lead_(std::size_t(kWindow * double(sample_rate) / double(ratio_)) / 2) {
+  first_.last.resize(ratio_);
+  second_.last.resize(ratio_);
+  thin_.resize(lead_);  // the first frame lies about 0
+}
+
+// Every `ratio`th sample of two moving averages in a row, which lag by ratio - 1 samples.
+void ProsodyMeter::push(std::span<const float> samples) {
+  for (const float sample : samples) {
+    const float value = ratio_ > 1 ? second_.next(first_.next(sample)) : sample;
+    if (++samples_ % ratio_ == 0) thin_.push_back(value);
+  }
+}
+
 dam::Prosody measure_prosody(const media::Pcm& sound) {
+  ProsodyMeter meter(sound.sample_rate);
+  meter.push(sound.samples);
+  return meter.finish();
+}
+
+dam::Prosody ProsodyMeter::finish() {
   dam::Prosody prosody;
   prosody.step = kStep;
-  if (sound.sample_rate < kRate || sound.samples.empty()) return prosody;
-  const auto ratio = std::size_t(sound.sample_rate / kRate);
-  const double rate = double(sound.sample_rate) / double(ratio);
-  std::vector<float> thin = thinned(sound.samples, ratio);
+  if (sample_rate_ < kRate || samples_ == 0) return prosody;
+  const double rate = double(sample_rate_) / double(ratio_);
+  std::vector<float>& thin = thin_;
   const auto window = std::size_t(kWindow * rate);
   const auto shortest = std::size_t(rate / kHighest), longest = std::size_t(rate / kLowest) + 1;
-  const auto frames = std::size_t(std::ceil(sound.duration() / kStep));
-  // The first frame lies about 0, the last one beyond the end.
-  const std::size_t lead = window / 2;
-  thin.insert(thin.begin(), lead, 0.0f);
+  const auto frames = std::size_t(std::ceil(double(samples_) / double(sample_rate_) / kStep));
+  // The last frame lies beyond the end.
   thin.resize(std::max(thin.size(), std::size_t(double(frames) * kStep * rate)) + window + longest +
               2);
   std::vector<float> level(frames), pitch(frames), correlation(longest - shortest + 1);
