@@ -199,7 +199,7 @@ TEST(Over, Mistakes) {
   EXPECT_FALSE(std::filesystem::exists(dir / "b.fba"));
   EXPECT_THAT(
       animeme({"stream", dir / "a.fba", "--over", dir / "a.fba", "--to", "udp://127.0.0.1:9"}).err,
-      HasSubstr("--over is for speech that is made"));
+      HasSubstr("--over is for speech"));
 }
 
 }  // namespace over_test

@@ -18,7 +18,7 @@ Result<HeadSettings> read(const char* text) { return serve::read_settings(*Json:
 TEST(HeadSettings, EveryMemberIsReadAndWritten) {
   const char* text =
       R"({"model":"m","lang":"de+f2","speed":150,"pitch":70,"tts":"t","voice_rate":24000,"head":"h","rate":"29.97","style":1.2,)"
-      R"("sharpness":2.0,"articulate":0.5,"idle_motion":false,"tongue":false,"mood":"anger:0.5","seed":9,)"
+      R"("sharpness":2.0,"articulate":0.5,"idle_motion":false,"tongue":false,"over":"take","keep":"lips=0.5","mood":"anger:0.5","seed":9,)"
       R"("liveliness":0.5,"still":"gaze,brows","look":"20,-5","intra_seconds":2.0,"encoder_delay":1.5,"quant":3,)"
       R"("sound":false,"audio_codec":"aac","audio_bitrate":64000,"audio_effort":10})";
   const Result<HeadSettings> settings = read(text);
@@ -52,6 +52,9 @@ TEST(HeadSettings, FaultsNameTheMember) {
       {R"({"lang": 7})", "\"lang\" is a text"},
       {R"({"idle_motion": "yes"})", "\"idle_motion\" is true or false"},
       {R"({"mood": "joyous day"})", "\"mood\": there is no mood \"joyous day\""},
+      {R"({"keep": "ears"})", "\"keep\": 'ears' is not PART=SHARE"},
+      {R"({"keep": "nape=1"})", "\"keep\": 'nape' is no part of the face"},
+      {R"({"over": 1})", "\"over\" is a text"},
       {R"({"mood": 1})", "\"mood\" is a text"},
       {R"({"seed": 1e10})", "\"seed\""},
       {R"({"encoder_delay": 11})", "\"encoder_delay\" is a number from 0 to 10"},

@@ -12,6 +12,7 @@
 #include "codec/decode/access_unit.h"
 #include "codec/decode/decoder.h"
 #include "dam/model/builtin.h"
+#include "dam/performance/performance.h"
 #include "tools/formats/media/audio.h"
 #include "tools/speech/talking/line_queue.h"
 #include "tools/speech/talking/live_voice.h"
@@ -161,6 +162,47 @@ TEST(VoiceCommands, NothingThatWasSentBeforeAStopIsHeard) {
   EXPECT_THAT(stage.told(),
               ElementsAre(HasSubstr("stopped"), HasSubstr("never"), HasSubstr("tone")));
   EXPECT_GT(stage.time_of(LineEvent::What::mark), 3.4);
+}
+
+// Brows and head are those of a performance, which repeats; the lips are those of the voice.
+TEST(VoiceCommands, OverAPerformance) {
+  const auto words = spoken_words();
+  if (!words) GTEST_SKIP() << "neither a voice nor ears";
+  fap::Sequence clip{{25, 1}, {}, ""};
+  for (int i = 0; i < 50; ++i) {
+    fap::Frame frame;
+    frame.number = i;
+    frame.set(49, std::int32_t(std::lround(8000 * std::sin(i * 0.12))));
+    frame.set(31, 100 + i);
+    clip.frames.push_back(frame);
+  }
+  LiveVoiceOptions options;
+  options.idle_motion = true;
+  const auto run = [&] {
+    Stage stage(words->sample_rate, options);
+    stage.feed->there = words->samples;
+    stage.feed->closed = true;
+    stage.run(1e9);
+    return stage.face();
+  };
+  const fap::Sequence alone = run();
+  options.over = std::make_shared<const dam::Performance>(*dam::Performance::make(clip));
+  const fap::Sequence kept = run();
+  ASSERT_EQ(kept.frames.size(), alone.frames.size());
+  ASSERT_GT(kept.frames.size(), 60u);
+  for (std::size_t i = 0; i < kept.frames.size(); ++i) {
+    const fap::Frame &frame = kept.frames[i], &other = alone.frames[i];
+    if (i < 50) {
+      EXPECT_NEAR(frame.value[49], 8000 * std::sin(double(i) * 0.12), 170) << i;
+      EXPECT_NEAR(frame.value[31], 100 + int(i), 2) << i;
+    } else {  // again, without a jump
+      EXPECT_LT(std::abs(frame.value[49] - kept.frames[i - 1].value[49]), 1400) << i;
+      EXPECT_LT(std::abs(frame.value[31] - kept.frames[i - 1].value[31]), 14) << i;
+      EXPECT_GT(frame.value[31], 50) << i;
+    }
+    EXPECT_EQ(opening(frame), opening(other)) << i;
+    EXPECT_EQ(frame.value[19], other.value[19]) << i;  // lids, which it lacks
+  }
 }
 
 TEST(VoiceCommands, MoodsGazeAndBlinksBesidesTheVoice) {

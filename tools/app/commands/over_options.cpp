@@ -1,10 +1,8 @@
 #include "tools/app/commands/over_options.h"
 
-#include <algorithm>
-#include <charconv>
 #include <utility>
 
-#include "fap/edit.h"
+#include "dam/performance/kept_shares.h"
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/edit_options.h"
 #include "tools/app/commands/options.h"
@@ -12,33 +10,8 @@
 namespace animeme::tools {
 
 Result<dam::KeptShares> parse_kept_shares(const std::string& text) {
-  dam::KeptShares shares;
-  std::string rest = text;
-  for (bool first = true; first || !rest.empty(); first = false) {
-    const std::size_t comma = std::min(rest.find(','), rest.size());
-    const std::string one = rest.substr(0, comma);
-    rest.erase(0, comma + 1);
-    const std::size_t equals = one.find('=');
-    const std::string number = equals == std::string::npos ? "" : one.substr(equals + 1);
-    double share = -1;
-    const auto [end, status] = std::from_chars(number.data(), number.data() + number.size(), share);
-    if (status != std::errc() || end != number.data() + number.size() ||
-        !(share >= 0 && share <= 1)) {
-      return make_error(Code::invalid_argument,
-                        "'" + one + "' is not PART=SHARE with a share of 0 to 1, such as lips=0.5");
-    }
-    const std::string name = one.substr(0, equals);
-    auto faps = parse_edit_faps(name);
-    if (!faps) return faps.error();
-    const fap::Mask tongue = *fap::region_faps("tongue"), jaw = *fap::region_faps("jaw");
-    if (name == "all") *faps &= ~(tongue | jaw);
-    if ((*faps & tongue).any()) {
-      return make_error(Code::invalid_argument,
-                        "the tongue cannot be kept: it is that of the new speech");
-    }
-    shares.set(*faps, share);
-  }
-  return shares;
+  // As an option, it says something.
+  return dam::parse_kept_shares(text.empty() ? "=" : text, parse_edit_faps);
 }
 
 void add_over_options(OptionTable& cli, OverChoice& choice, bool bends) {

@@ -15,6 +15,7 @@
 #include "tools/app/commands/head_options.h"
 #include "tools/app/commands/interrupt.h"
 #include "tools/app/commands/options.h"
+#include "tools/app/commands/over_options.h"
 #include "tools/app/commands/shown_heads.h"
 #include "tools/app/commands/stream_options.h"
 #include "tools/formats/common/json.h"
@@ -36,6 +37,7 @@ struct ServeOptions {
   std::vector<std::string> tts;     // --tts, NAME=COMMAND
   std::string viewers = "open";     // --viewers
   std::vector<std::string> ice;     // --ice-server
+  std::vector<std::string> overs;   // --over, likewise
   HeadChoices faces;                // --head and what belongs to it
   serve::ServerOptions server;      // all others
   bool stats = false;               // --stats
@@ -110,6 +112,12 @@ void add_options(OptionTable& cli, ServeOptions& options) {
           "Who may watch: open, everybody; token, who has the token, or a ticket for the head")
       ->one_of("open token")
       ->show_default();
+  cli.add("--over", options.overs,
+          "Performance (a file with a face) that heads may keep under their speech, with its name; "
+          "it repeats; may be repeated")
+      ->value("NAME=FILE")
+      ->check(bad_model)
+      ->one_at_a_time();
   cli.add("--max-heads", server.most_heads, "Most heads at the same time")
       ->between(1, 10000)
       ->show_default();
@@ -246,6 +254,13 @@ Result<int> run(ServeOptions& options) {
   wanted.guard_viewers = options.viewers == "token";
   if (wanted.guard_viewers && wanted.token.empty()) {
     return usage_error("--viewers token needs a token (--token-file)");
+  }
+  for (const std::string& over : options.overs) {
+    const std::size_t equals = over.find('=');
+    auto performance = read_performance(over.substr(equals + 1));
+    if (!performance) return performance.error();
+    wanted.performances[over.substr(0, equals)] =
+        std::make_shared<const dam::Performance>(std::move(*performance));
   }
   std::vector<std::pair<std::string, serve::HeadSettings>> heads;
   if (!options.heads.empty()) {

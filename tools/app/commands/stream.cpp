@@ -39,8 +39,8 @@ std::string bad_options(const StreamOptions& options) {
   if (voice && (what.loop || options.fast)) {
     return "--loop and --fast are for clips, --say-audio comes in its own time";
   }
-  if (!options.over.path.empty() && (voice || !options.input.empty())) {
-    return "--over is for speech that is made: --say, or --text and its like";
+  if (!options.over.path.empty() && !options.input.empty()) {
+    return "--over is for speech: --say, --say-audio, or --text and its like";
   }
   if (said && !what.spoken.audio.empty()) {
     return "--audio goes with a face, not with --say, whose voice speaks as the lines come";

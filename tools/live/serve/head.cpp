@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "dam/performance/kept_shares.h"
 #include "tools/speech/talking/pieces.h"
 
 namespace animeme::serve {
@@ -13,9 +14,13 @@ namespace {
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kLinger = 1;  // seconds that a head runs on without viewers
 
-speech::SpeakerOptions speaker_options(const HeadSettings& settings, int voice_rate) {
+Result<speech::SpeakerOptions> speaker_options(const HeadSettings& settings, int voice_rate,
+                                               std::shared_ptr<const dam::Performance> over) {
   speech::SpeakerOptions options;
-  options.face = {settings.motion, settings.idle_motion, settings.idle, settings.mood};
+  const auto keep = dam::parse_kept_shares(settings.keep);
+  if (!keep) return keep.error();
+  options.face = {settings.motion, settings.idle_motion, settings.idle,
+                  settings.mood,   std::move(over),      *keep};
   options.face.synthesis.tongue &= settings.quant > 0;  // else FAP 47 does not fit
   options.fap_quant = settings.quant;
   options.intra_seconds = settings.intra_seconds;
@@ -31,6 +36,7 @@ speech::SpeakerOptions speaker_options(const HeadSettings& settings, int voice_r
 
 Result<std::shared_ptr<Head>> Head::open(const std::string& name, const HeadSettings& settings,
                                          std::shared_ptr<const dam::Model> model,
+                                         std::shared_ptr<const dam::Performance> over,
                                          const HeadRoom& room) {
   std::shared_ptr<Head> head(new Head(name, settings, std::move(model), room));
   // Not the head itself: who calls may be the last to know it, in a thread that it waits for.
@@ -44,8 +50,9 @@ Result<std::shared_ptr<Head>> Head::open(const std::string& name, const HeadSett
   maker.pieces->refuse_files();  // of this machine
   head->lines_ = std::make_shared<HeadLines>(std::move(maker), room.voices, room.clock, wake,
                                              room.most_seconds, room.slow_voice);
-  auto speaker = speech::LiveSpeaker::open(*head->model_, *head->lines_, room.clock,
-                                           speaker_options(settings, rate));
+  const auto options = speaker_options(settings, rate, std::move(over));
+  if (!options) return options.error();
+  auto speaker = speech::LiveSpeaker::open(*head->model_, *head->lines_, room.clock, *options);
   if (!speaker) return speaker.error();
   head->speaker_ = std::move(*speaker);
   head->resume_ = std::min(0.0, head->speaker_->next_due().value_or(0));  // priming is before 0

@@ -54,10 +54,12 @@ struct HeadFigures {
 /// Thread safe.
 class Head : public Beat {
  public:
-  /// At `name` of the server: /heads/NAME/. `model` is shared. Errors: those of
+  /// At `name` of the server: /heads/NAME/. `model` and `over`, the performance of
+  /// HeadSettings::over (null: none), are shared. Errors: those of
   /// LiveSpeaker::open() and WebSink::start().
   static Result<std::shared_ptr<Head>> open(const std::string& name, const HeadSettings& settings,
                                             std::shared_ptr<const dam::Model> model,
+                                            std::shared_ptr<const dam::Performance> over,
                                             const HeadRoom& room);
   ~Head() override;
 

@@ -134,6 +134,19 @@ Result<std::shared_ptr<const dam::Model>> HeadServer::model(const std::string& n
   return models_[name] = std::make_shared<const dam::Model>(std::move(*read));
 }
 
+Result<std::shared_ptr<const dam::Performance>> HeadServer::performance(
+    const std::string& name) const {
+  if (name.empty()) return std::shared_ptr<const dam::Performance>();
+  const auto known = options_.performances.find(name);
+  if (known != options_.performances.end()) return known->second;
+  std::string all;
+  for (const auto& [each, over] : options_.performances) all += (all.empty() ? "" : ", ") + each;
+  return make_error(
+      Code::not_found,
+      "there is no performance '" + name.substr(0, 60) + "'" +
+          (all.empty() ? "; performances are named with --over NAME=FILE" : "; there are " + all));
+}
+
 Result<std::shared_ptr<Head>> HeadServer::make(const std::string& name,
                                                const HeadSettings& settings, bool expires) {
   if (!is_head_name(name)) {
@@ -210,7 +223,9 @@ Result<std::shared_ptr<Head>> HeadServer::open_head(const std::string& name,
   if (!found) return found.error();
   Result<Voice> spoken = voice(settings);
   if (!spoken) return spoken.error();
-  return Head::open(name, settings, *found,
+  auto over = performance(settings.over);
+  if (!over) return over.error();
+  return Head::open(name, settings, *found, *over,
                     {*voices_, std::move(spoken->maker), spoken->slow, *server_, *loop_,
                      media::steady_clock(), journal_, options_.most_seconds});
 }
@@ -234,6 +249,7 @@ Result<void> HeadServer::update(const std::string& name, const HeadSettings& set
     return {};
   }
   if (auto found = model(settings.model); !found) return found.error();
+  if (auto over = performance(settings.over); !over) return over.error();
   {
     const std::lock_guard lock(mutex_);
     heads_.erase(name);

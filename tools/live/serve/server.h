@@ -45,6 +45,8 @@ struct ServerOptions {
   std::map<std::string, std::string> tts;         ///< commands as speech::VoiceCommand, by name
   /// Viewers need the token or a ticket (tickets.h); with a token alone.
   bool guard_viewers = false;
+  /// Performances that heads may keep under their speech, by name.
+  std::map<std::string, std::shared_ptr<const dam::Performance>> performances;
   int threads = 0;  ///< for generating planes and packets; 0: one per core
   MakerOf voices;   ///< empty: speech::voice_lines()
   Log log;          ///< receives requests, heads and lines; empty: nobody
@@ -126,6 +128,7 @@ class HeadServer {
   Result<std::shared_ptr<Head>> open_head(const std::string& name, const HeadSettings& settings);
   Result<void> check(const HeadSettings& settings) const;
   void end(const std::shared_ptr<Head>& head, bool comes_back = false);
+  Result<std::shared_ptr<const dam::Performance>> performance(const std::string& name) const;
   std::vector<std::pair<std::string, std::shared_ptr<Head>>> all() const;
 
   const ServerOptions options_;

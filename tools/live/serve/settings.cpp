@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "dam/performance/kept_shares.h"
 #include "fap/rate_text.h"
 #include "tools/formats/common/text.h"
 #include "tools/formats/files/files.h"
@@ -143,6 +144,11 @@ Result<HeadSettings> read_settings(const Json& json, HeadSettings settings) {
   if (articulation >= 0) settings.motion.articulation = articulation;
   members.flag("idle_motion", settings.idle_motion);
   members.flag("tongue", settings.motion.tongue);
+  members.text("over", settings.over);
+  if (members.text("keep", settings.keep)) {
+    const auto shares = dam::parse_kept_shares(settings.keep);
+    if (!shares) members.fault("\"keep\": " + shares.error().message);
+  }
   members.read("mood", dam::read_mood, settings.mood);
   members.number("seed", 0, 1e9, settings.idle.seed);
   members.number("liveliness", 0, dam::kMostLiveliness, settings.idle.liveliness);
@@ -186,6 +192,8 @@ Json settings_json(const HeadSettings& settings) {
            settings.motion.articulation ? Json(*settings.motion.articulation) : Json(nullptr)},
           {"idle_motion", settings.idle_motion},
           {"tongue", settings.motion.tongue},
+          {"over", settings.over},
+          {"keep", settings.keep},
           {"mood", dam::mood_text(settings.mood)},
           {"seed", settings.idle.seed},
           {"liveliness", settings.idle.liveliness},

@@ -31,7 +31,9 @@ struct HeadSettings {
   /// Of the idle motion: "seed" (0..1e9), "liveliness" (0..2), "still" ("gaze,head"), "look"
   /// ("camera", "20,-5")
   dam::IdleMotionOptions idle;
-  dam::Mood mood;            ///< "mood": a name of dam::read_mood(), also "joy:0.6"
+  std::string over;  ///< "over": a performance known to the server, which repeats; empty: none
+  std::string keep;  ///< "keep": shares of it, "lips=0.5,brows=0" (dam/performance/kept_shares.h)
+  dam::Mood mood;    ///< "mood": a name of dam::read_mood(), also "joy:0.6"
   double intra_seconds = 1;  ///< "intra_seconds": interval of intra planes
   double encoder_delay = 0;  ///< "encoder_delay": seconds by which all is sent later, for less bits
   int quant = 1;             ///< "quant", 0..31

@@ -161,6 +161,8 @@ Result<void> open_voice(const ProgramOptions& options, fap::Rate rate, Program& 
   settings.idle_motion = options.idle_motion;
   settings.idle = options.idle;
   settings.mood = options.mood;
+  settings.over = options.over;
+  settings.keep = options.keep;
   if (!options.control.empty()) {
     auto control = speech::ControlSocket::open(options.control);
     if (!control) return control.error();

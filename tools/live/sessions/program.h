@@ -41,7 +41,8 @@ struct ProgramOptions {
   dam::IdleMotionOptions idle;   ///< of the idle motion; without `prosody`
   dam::Mood mood;                ///< of the face
   /// A performance that is kept under the speech; null: none. It repeats below a head that speaks
-  /// line by line; below a clip its time is bent (dam/performance/over_speech.h).
+  /// line by line or follows a live voice; below a clip its time is bent
+  /// (dam/performance/over_speech.h).
   std::shared_ptr<const dam::Performance> over = nullptr;
   dam::KeptShares keep = {};                                  ///< what is kept of it
   bool loop = false;                                          ///< repeat clips

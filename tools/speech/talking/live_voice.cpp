@@ -310,6 +310,8 @@ Result<std::unique_ptr<LiveVoice>> LiveVoice::open(const dam::Model& model,
   still.idle_motion = options.idle_motion;
   still.idle = options.idle;
   still.mood = options.mood;
+  still.over = options.over;
+  still.keep = options.keep;
   // Without quantisation, angles end at one degree.
   if (options.fap_quant == 0) still.idle.still.gaze = still.idle.still.head = true;
   Result<TalkingFace> life = TalkingFace::open(model, still);

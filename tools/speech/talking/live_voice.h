@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "dam/model/model.h"
+#include "dam/performance/over_speech.h"
 #include "dam/script/mood.h"
 #include "dam/speaking/idle_motion.h"
 #include "dam/speaking/synthesise.h"
@@ -50,6 +51,9 @@ struct LiveVoiceOptions {
   bool idle_motion = false;     ///< gaze, blinks, brows and head, see FaceOptions
   dam::IdleMotionOptions idle;  ///< of these; `prosody` is not used
   dam::Mood mood;               ///< at the beginning
+  /// A performance under the speech, which repeats; null: none.
+  std::shared_ptr<const dam::Performance> over = nullptr;
+  dam::KeptShares keep = {};  ///< what is kept of it
   /// Where commands come from; must outlive the voice; null: there are none.
   LineSource* commands = nullptr;
 };
