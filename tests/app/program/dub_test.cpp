@@ -90,6 +90,12 @@ TEST(Dub, EachLanguageAndOneFileWithAll) {
       EXPECT_EQ(test::slurp(dir / "a" + ending), test::slurp(dir / "b" + ending)) << lang << ending;
   }
 
+  // The page has a menu of them.
+  const auto page_said = animeme({"view", dir / "out/film.mp4", "-o", dir / "film.html", "--json"});
+  EXPECT_THAT(page_said.out, HasSubstr("\"languages\": 3"));
+  EXPECT_THAT(test::slurp(dir / "film.html"), HasSubstr("id=\"track2sound\""));
+  EXPECT_THAT(page_said.err, Not(HasSubstr("warning")));
+
   // Each cue in its time, or told; worst first; the same in all three.
   const auto report = test::Json::parse(test::slurp(dir / "out/report.json"));
   ASSERT_EQ(report["cues"].size(), 5u);

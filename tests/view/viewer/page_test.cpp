@@ -118,6 +118,68 @@ TEST(Page, OtherSpeedsKeepThePitchAndTheTime) {
   }
 }
 
+media::Pcm bursts_of(double hertz, std::size_t seconds) {
+  media::Pcm tones{48000, std::vector<float>(48000 * seconds)};
+  for (std::size_t second = 1; second < seconds; ++second) {
+    for (std::size_t i = 0; i < 9600; ++i) {
+      tones.samples[second * 48000 + i] =
+          float(0.5 * std::sin(2 * std::numbers::pi * hertz * double(i) / 48000));
+    }
+  }
+  return tones;
+}
+
+dam::Script saying(const std::string& word) {
+  dam::Script script;
+  script.phones = {{0, 6, "AA", word}};
+  return script;
+}
+
+// Two languages: what is heard, seen and said changes together while it plays.
+TEST(Page, LanguagesChangeWhileItPlays) {
+  NEEDS_BROWSER();
+  const TempDir dir;
+  viewer::Page page{&test_head().head,
+                    &test_head().rig,
+                    {{moving_clip(), 0, "clip"}},
+                    sound_of(bursts_of(440, 6), dir),
+                    saying("hello")};
+  page.lang = "en";
+  page.tracks.push_back(
+      {"de", "Ann", {moving_clip(), 0, "clip"}, sound_of(bursts_of(880, 6), dir), saying("hallo")});
+  const auto html = viewer::make_page(page);
+  ASSERT_TRUE(html) << html.error().describe();
+  const Json report = report_of("tracks", *html, dir);
+  ASSERT_TRUE(report.contains("clicks"));
+  EXPECT_EQ(said(report), std::vector<std::string>());
+  EXPECT_EQ(report["list"], Json::parse(R"(["English", "Ann, Deutsch"])"));
+  EXPECT_EQ(report["state"]["lang"], "de");
+  EXPECT_EQ(report["back"]["lang"], "en");
+  EXPECT_EQ(report["back"]["sound"], true);
+  EXPECT_EQ(report["asked"]["lang"], "de");
+  ASSERT_EQ(report["clicks"].size(), 5u);
+  for (std::size_t i = 0; i < 5; ++i)
+    EXPECT_NEAR(report["pitches"][i].get<double>(), i < 2 ? 440 : 880, 26) << i;
+  // From then on German words and the German face go with the German sound.
+  const double zero = report["clicks"][2].get<double>() - 3;
+  int compared = 0;
+  bool german = false;
+  for (const Json& picture : report["pictures"]) {
+    german = german || picture["lang"] == "de";
+    EXPECT_EQ(picture["lang"], german ? "de" : "en");
+    const std::string now = picture["said"];
+    const double heard = picture["clock"].get<double>() - zero;
+    if (!german || heard < 2.8 || heard > 5) continue;
+    ++compared;
+    EXPECT_EQ(now.substr(0, 5), "hallo");
+    const double begin = picture["frame"].get<double>() / 25;
+    EXPECT_LT(std::max(begin - heard, heard - begin - 0.04), 0.04);
+  }
+  EXPECT_GE(compared, 1);
+  page.clips.push_back({moving_clip(), 0, "other"});
+  EXPECT_EQ(viewer::make_page(page).error().code, Code::invalid_argument);
+}
+
 TEST(Page, SaysLinesAndShowsTheWave) {
   NEEDS_BROWSER();
   const TempDir dir;

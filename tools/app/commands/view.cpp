@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <span>
 
 #include "fap/head/rig.h"
 #include "tools/app/commands/avatar_export.h"
@@ -15,6 +16,8 @@
 #include "tools/app/commands/shown_heads.h"
 #include "tools/app/commands/track_option.h"
 #include "tools/formats/common/text.h"
+#include "tools/formats/media/container.h"
+#include "tools/formats/media/track_labels.h"
 #include "tools/speech/talking/voice_file.h"
 #include "tools/view/viewer/viewer.h"
 
@@ -76,6 +79,54 @@ Result<std::optional<PageSound>> sound_of(const ViewOptions& options,
   return std::optional<PageSound>();
 }
 
+// Languages and people of the file, in its order, if the page is to have all of them.
+std::vector<media::TrackLabels> tracks_of(const ViewOptions& options) {
+  const bool alone = !options.track.empty() || !options.second.empty() || options.first == "-" ||
+                     !options.audio.empty() || !options.script.empty();
+  std::vector<media::TrackLabels> all;
+  if (alone) return all;
+  const auto info = media::probe(options.first);
+  if (!info) return all;
+  for (const media::TrackInfo& track : info->tracks) {
+    const bool face = track.kind == media::TrackKind::face;
+    const bool known = std::find(all.begin(), all.end(), track.labels) != all.end();
+    if (face && !track.labels.empty() && !known) all.push_back(track.labels);
+  }
+  if (all.size() < 2) all.clear();
+  return all;
+}
+
+std::string language_of(const media::TrackLabels& labels) {
+  return labels.language.empty() ? labels.code : labels.language;
+}
+
+// The tracks of a file behind the first one: face, sound and words of each.
+Result<void> add_tracks(const ViewOptions& options, std::span<const media::TrackLabels> tracks,
+                        const fap::FillOptions& filling, viewer::Page& page) {
+  if (tracks.empty()) return {};
+  page.lang = language_of(tracks.front());
+  page.speaker = tracks.front().speaker;
+  for (const media::TrackLabels& labels : tracks.subspan(1)) {
+    const media::TrackScope scope(labels);
+    Result<ViewedClip> shown = read_shown(options.first, options.length, filling);
+    if (!shown) return shown.error();
+    viewer::OtherTrack track{labels.language.empty() ? labels.code : labels.language,
+                             labels.speaker,
+                             std::move(shown->clip),
+                             {},
+                             {}};
+    auto sound = sound_of(options, {options.first});
+    if (!sound) return sound.error();
+    if (*sound) track.sound = std::move((*sound)->sound);
+    auto script = script_for({}, {options.first}, options.reading);
+    if (!script) return script.error();
+    track.script = std::move(*script);
+    track.clip.visemes = said_visemes(shown->face, track.clip.motion, track.script, options.mouth);
+    page.tracks.push_back(std::move(track));
+  }
+  return {};
+}
+
 // What belongs together lasts about equally long.
 void warn_of_lengths(const viewer::Page& page, const ViewOptions& options, double sound) {
   const double face = page.clips.front().motion.duration();
@@ -107,7 +158,8 @@ void warn_of_size(const viewer::Page& page, std::size_t size, double seconds) {
 }
 
 Result<int> run(const ViewOptions& options) {
-  const media::TrackScope tracks(wanted_track_of(options.track));
+  const std::vector<media::TrackLabels> all = tracks_of(options);
+  const media::TrackScope tracks(all.empty() ? wanted_track_of(options.track) : all.front());
   if (const std::string problem = problem_of(options.heads); !problem.empty()) {
     return usage_error(problem);
   }
@@ -142,6 +194,7 @@ Result<int> run(const ViewOptions& options) {
     viewer::Clip& clip = page.clips.front();
     clip.visemes = said_visemes(faces.front(), clip.motion, page.script, options.mouth);
   }
+  if (auto added = add_tracks(options, all, filling, page); !added) return added.error();
   page.head = &heads.front()->head;
   page.rig = &heads.front()->rig;
   page.head_name = heads.front()->name;
@@ -151,11 +204,13 @@ Result<int> run(const ViewOptions& options) {
   const Result<std::string> html = viewer::make_page(page);
   if (!html) return html.error();
   if (auto written = write_file(options.output, *html); !written) return written.error();
-  report_output(
-      options.output,
-      megabytes(double(html->size())) + (page.sound ? ", with sound" : ", silent") +
-          "; open it in a browser",
-      {{"bytes", html->size()}, {"sound", page.sound.has_value()}, {"heads", heads.size()}});
+  report_output(options.output,
+                megabytes(double(html->size())) + (page.sound ? ", with sound" : ", silent") +
+                    "; open it in a browser",
+                {{"bytes", html->size()},
+                 {"sound", page.sound.has_value()},
+                 {"heads", heads.size()},
+                 {"languages", 1 + page.tracks.size()}});
   warn_of_lengths(page, options, seconds);
   warn_of_size(page, html->size(), seconds);
   return kOk;
@@ -192,6 +247,7 @@ const Command kView{
     "-o talk.html\n"
     "  animeme view talk.mp4 --head woman,man,me.glb -o heads.html\n"
     "  animeme view original.fap coded.fba --audio voice.wav -o loss.html\n"
+    "  animeme view film.mp4 -o film.html               # all languages of film.mp4, with a menu\n"
     "  animeme view lecture.mp4 --audio-codec opus --audio-bitrate 20000 -o lecture.html\n"
     "The page needs no network; ? shows its keys.",
     set_up<ViewOptions>};

@@ -105,6 +105,17 @@ Json facts_of(const Page& page) {
              {"phones", json_list(page.script.phones, phone_of)},
              {"captions", caption_lines(page.script)}};
   if (page.sound) facts["sound"] = page.sound->type;
+  if (!page.tracks.empty()) {
+    facts["tracks"] = Json::array({Json{{"lang", page.lang}, {"speaker", page.speaker}}});
+    for (const OtherTrack& track : page.tracks) {
+      Json one{{"lang", track.lang},
+               {"speaker", track.speaker},
+               {"phones", json_list(track.script.phones, phone_of)},
+               {"captions", caption_lines(track.script)}};
+      if (track.sound) one["sound"] = track.sound->type;
+      facts["tracks"].push_back(std::move(one));
+    }
+  }
   if (!page.others.empty()) {
     facts["heads"] = {page.head_name};
     for (const OtherHead& other : page.others) facts["heads"].push_back(other.name);
@@ -136,6 +147,17 @@ std::string data_elements(const Page& page) {
     }
   }
   if (page.sound) out += data_element("sound", detail::base64(page.sound->file));
+  for (std::size_t i = 0; i < page.tracks.size(); ++i) {
+    const OtherTrack& track = page.tracks[i];
+    const std::string name = "track" + std::to_string(i + 1);
+    const std::string first = pack_clip(track.clip, *page.rig);
+    out += data_element(name + "clip", first);
+    for (std::size_t k = 0; k < page.others.size(); ++k) {
+      const std::string clip = pack_clip(track.clip, *page.others[k].rig);
+      if (clip != first) out += data_element(name + "clip_" + std::to_string(k + 1), clip);
+    }
+    if (track.sound) out += data_element(name + "sound", detail::base64(track.sound->file));
+  }
   return out;
 }
 
@@ -184,10 +206,16 @@ Result<std::string> make_page(const Page& page) {
   if (page.clips.empty() || page.clips.size() > 2) {
     return make_error(Code::invalid_argument, "a page shows one clip, or two to compare");
   }
-  for (const Clip& clip : page.clips) {
-    if (clip.motion.frames.empty() || !clip.motion.rate.valid()) {
-      return make_error(Code::invalid_argument, "a clip needs frames and a rate");
-    }
+  if (page.clips.size() > 1 && !page.tracks.empty()) {
+    return make_error(Code::invalid_argument, "two clips are compared in one language");
+  }
+  const auto empty = [](const Clip& clip) {
+    return clip.motion.frames.empty() || !clip.motion.rate.valid();
+  };
+  if (std::any_of(page.clips.begin(), page.clips.end(), empty) ||
+      std::any_of(page.tracks.begin(), page.tracks.end(),
+                  [&](const OtherTrack& track) { return empty(track.clip); })) {
+    return make_error(Code::invalid_argument, "a clip needs frames and a rate");
   }
   // Through JSON and back: what is no UTF-8 becomes a replacement mark.
   const std::string name = Json::parse(detail::text_of(page.clips[0].name))->text();

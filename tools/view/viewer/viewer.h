@@ -49,6 +49,15 @@ struct OtherHead {
   std::string name;                  ///< display name in the list; any text
 };
 
+/// The same in another language, or of another person.
+struct OtherTrack {
+  std::string lang;            ///< language tag (BCP 47); empty: unknown
+  std::string speaker;         ///< who speaks; empty: unknown
+  Clip clip;                   ///< the face
+  std::optional<Sound> sound;  ///< nullopt: silent
+  dam::Script script;          ///< what is said; empty: none
+};
+
 /// Contents of a page; heads and rigs are borrowed.
 struct Page {
   const head::Head* head = nullptr;  ///< borrowed
@@ -59,11 +68,16 @@ struct Page {
   /// Further heads: 0.6 to 0.8 MB each. With them the page has a list to choose from.
   std::vector<OtherHead> others;
   std::string head_name;  ///< of the first head, in that list
+  /// Further languages or people, beside one clip. With them the page has a list that switches
+  /// face, sound and words at the same instant.
+  std::vector<OtherTrack> tracks;
+  std::string lang;     ///< of the first one: language tag
+  std::string speaker;  ///< of the first one
 };
 
 /// Makes the page. The same input gives the same bytes with the same zlib. External texts (names,
 /// labels, words) are escaped. Errors: invalid_argument (a head or rig is missing; not one clip or
-/// two; a clip without frames).
+/// two; two clips in several languages; a clip without frames).
 Result<std::string> make_page(const Page& page);
 
 /// A head in the format read by model.js (see README.md): about 1.8 MB.

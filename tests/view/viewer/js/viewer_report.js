@@ -1,10 +1,12 @@
-// node viewer_report.js looks|other|sound|speeds|texts|says|screens|axe|picture|live PAGE.html FOLDER: what Chromium makes of a page, as
+// node viewer_report.js looks|other|tracks|sound|speeds|texts|says|screens|axe|picture|live PAGE.html FOLDER: what Chromium makes of a page, as
 // JSON.
 //
 // looks: vertices of the frames 0 .. 7 as 32-bit floats in FOLDER/<part>_<frame>.f32; how much the
 //   mouth and the forehead change between the frames 0 and 1; `specks` of these frames and of frame 2, [x, y],
 //   below the nose.
 // other: the same vertices of the second head of a page, chosen by the keyboard; `list` of heads.
+// tracks: plays five seconds and a half; behind two and a half the menu of languages chooses the second; `list` of
+//   the menu, the state when the first is `back`, and where the address `asked` for German.
 // sound: plays ten seconds; each picture against what is heard then, told by the clicks.
 // speeds: the same without a head, three seconds of the clip at half and at double speed; `pitches` in Hz, of
 //   the first 80 ms of each burst.
@@ -140,7 +142,7 @@ const TAP = `registerProcessor('tap', class extends AudioWorkletProcessor {
 })`;
 
 // Runs in the page: when clicks leave the player, and which frame is drawn at which time.
-async function listen(tap, seconds) {
+async function listen(tap, seconds, change = Infinity) {
   const {animeme} = window;
   animeme.play();
   const context = animeme.context();
@@ -156,8 +158,13 @@ async function listen(tap, seconds) {
   const end = performance.now() + 60000;
   while (animeme.state().position < seconds && performance.now() < end) {
     await new Promise((next) => setTimeout(next, 5));
-    const {playing, frame, clock} = animeme.state();
-    if (playing) pictures.set(clock, {frame, clock});
+    const {playing, frame, clock, lang, position} = animeme.state();
+    if (playing) pictures.set(clock, {frame, clock, lang, said: document.getElementById('now').textContent});
+    if (position < change) continue;
+    change = Infinity;
+    const menu = document.getElementById('tracks');
+    menu.value = '1';
+    menu.dispatchEvent(new Event('change'));
   }
   animeme.pause();
   await new Promise((next) => setTimeout(next, 300));
@@ -172,6 +179,19 @@ async function hear(page, file, query, seconds) {
   await page.send('Page.setBypassCSP', {enabled: true});
   await open(page, file, query);
   return page.evaluate(listen, TAP, seconds);
+}
+
+async function tracks(page, file) {
+  await page.resize(240, 480);
+  await page.send('Page.setBypassCSP', {enabled: true});
+  await open(page, file, '?nohead&mode=first');
+  const list = await page.evaluate(`[...document.getElementById('tracks').options].map((o) => o.text)`);
+  const report = {list, ...await page.evaluate(listen, TAP, 5.5, 2.5)};
+  await page.evaluate('window.animeme.showTrack(0)');
+  report.back = await page.evaluate('window.animeme.state()');
+  await open(page, file, '?nohead&lang=de');
+  report.asked = await page.evaluate('window.animeme.state()');
+  return report;
 }
 
 const sound = (page, file) => hear(page, file, '?mode=first', 10.4);
@@ -342,7 +362,7 @@ async function main([kind, file, folder]) {
   const browser = await launch({flags: FLAGS});
   try {
     const page = await browser.open();
-    const report = await {looks, other, sound, speeds, texts, says, screens, axe, picture, live}[kind](page, path.resolve(file), folder, open);
+    const report = await {looks, other, tracks, sound, speeds, texts, says, screens, axe, picture, live}[kind](page, path.resolve(file), folder, open);
     report.messages = page.messages;
     process.stdout.write(JSON.stringify(report) + '\n');
   } finally {

@@ -40,6 +40,13 @@ export class Controls {
     byId('whose').hidden = app.heads.length < 2 || !app.viewport.view;
     byId('heads').replaceChildren(...app.heads.map((name, i) => new Option(name, i)));
     byId('heads').addEventListener('change', (event) => app.showHead(Number(event.target.value)));
+    byId('spoken').hidden = app.tracks.length < 2;
+    byId('tracks').replaceChildren(...app.tracks.map((track, i) => {
+      const option = new Option(track.name, i);
+      option.lang = track.lang;
+      return option;
+    }));
+    byId('tracks').addEventListener('change', (event) => app.showTrack(Number(event.target.value)));
     byId('full').hidden = !document.fullscreenEnabled;
   }
 
@@ -65,6 +72,7 @@ export class Controls {
     }
     speed.value = String(player.rate);
     if (app.heads.length) byId('heads').value = String(app.whose);
+    if (app.tracks.length) byId('tracks').value = String(app.track);
     for (const name of ['wire', 'points', 'between']) byId(name).checked = options[name];
     for (const radio of document.getElementsByName('mode')) {
       radio.checked = radio.value === options.mode;

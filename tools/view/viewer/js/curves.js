@@ -22,15 +22,21 @@ export function valueText(value, unit) {
 export class Curves {
   constructor(elements, app, axis, facts) {
     Object.assign(this, {...elements, app, axis});
-    this.phones = facts.phones;
-    this.words = facts.captions.flat();
-    this.said = new Said(this.now, facts.phones, facts.captions);
+    this.say(facts);
     this.table = facts.faps;
     this.faps = [];
     this.ranges = {};
     axis.onChange = () => this.draw();
     new ResizeObserver(() => this.draw()).observe(this.area);
     this.listen();
+  }
+
+  /** What is said: phones and lines of captions. */
+  say({phones, captions}) {
+    this.phones = phones;
+    this.words = captions.flat();
+    this.said = new Said(this.now, phones, captions);
+    this.wave = null;
   }
 
   /** The FAPs to show, one row each. */

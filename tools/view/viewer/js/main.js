@@ -8,7 +8,7 @@ import {Curves} from './curves.js';
 import {inflate} from './inflate.js';
 import {fillHelp, keyTable, listenToKeys} from './keys.js';
 import {readModel} from './model.js';
-import {Player} from './player.js';
+import {decodedSound, Player} from './player.js';
 import {rigReady} from './rig.js';
 import {MODES, Viewport} from './viewport.js';
 
@@ -18,6 +18,17 @@ const data = (id) => (byId(id) ? inflate(coded(id)) : null);
 const asked = new URLSearchParams(location.search);
 const SHORTEST_MARK = 0.1;  // seconds
 const flag = (name) => asked.has(name) && asked.get(name) !== '0';
+
+/** A track as its speakers call it: "Deutsch", "Ann, Deutsch". */
+function trackName({lang, speaker}) {
+  let language = lang;
+  try {
+    if (lang) language = new Intl.DisplayNames([lang], {type: 'language'}).of(lang);
+  } catch {
+    // The tag will do.
+  }
+  return [speaker, language].filter(Boolean).join(', ');
+}
 
 /** What the page does; controls and keys call it. */
 class App {
@@ -36,8 +47,12 @@ class App {
       message: byId('message'), readout: byId('readout'), names: [byId('name0'), byId('name1')],
     }, model, this.clips, facts.faps);
     this.heads = facts.heads || [];
-    this.loaded = [{model, clips: this.clips}];
+    this.models = [model];
     this.whose = 0;
+    /** Languages and people: what is said, and once they are loaded `clips` by head and `buffer`. */
+    this.tracks = (facts.tracks || [{lang: '', speaker: ''}]).map((track, i) => ({
+      ...track, ...(i ? {} : facts), name: trackName(track), clips: i ? [] : [this.clips]}));
+    this.track = 0;
     this.curves = new Curves({
       area: byId('area'), canvas: byId('curves'), labels: byId('labels'), head: byId('head'),
       now: byId('now'), buttons: byId('zoom'),
@@ -88,18 +103,64 @@ class App {
   /** Shows head `which`, a number; what is in the page of it is unpacked when it is wanted. */
   async showHead(which) {
     if (!this.viewport.view) return;
-    this.wanted = which;
-    if (!this.loaded[which]) {
-      const own = await Promise.all(this.clips.map((_, i) => data(`clip${i}_${which}`)));
-      this.loaded[which] = {model: readModel(await data(`model_${which}`)),
-        clips: own.map((bytes, i) => (bytes ? new Clip(bytes) : this.clips[i]))};
+    await this.exchange(which, (this.wanted || this).track);
+  }
+
+  /** Language or person `which`, a number: face, sound and words at the same moment. */
+  async showTrack(which) {
+    await this.exchange((this.wanted || this).whose, which);
+  }
+
+  // Unpacks what is wanted, and then changes all of it at once.
+  async exchange(whose, track) {
+    const wanted = this.wanted = {whose, track};
+    if (this.models[whose] === undefined) this.models[whose] = readModel(await data(`model_${whose}`));
+    const to = this.tracks[track];
+    const own = await this.clipsOf(track, whose);
+    await this.loadBuffer(track);
+    const [first] = to.clips;
+    if (this.wanted !== wanted) return;  // somebody was faster
+    this.wanted = null;
+    const {viewport, player} = this;
+    if (whose !== this.whose) viewport.setModel(this.models[whose], own);
+    else viewport.setClips(own);
+    this.whose = whose;
+    if (track !== this.track) {
+      this.track = track;
+      this.clips = first;
+      this.hasSound = Boolean(to.buffer);
+      this.curves.say(to);
+      byId('now').lang = to.lang;
+      byId('viewport').classList.toggle('says', to.phones.length > 0);
+      const seconds = Math.max(...first.map((clip) => clip.end), to.buffer ? to.buffer.duration : 0);
+      player.exchange(to.buffer || null, seconds);
+      this.curves.choose(this.curves.faps);
     }
-    if (this.wanted !== which) return;  // somebody was faster
-    const {model, clips} = this.loaded[which];
-    this.whose = which;
-    this.viewport.setModel(model, clips);
-    await this.viewport.view.ready;
+    if (viewport.view) await viewport.view.ready;
     this.changed();
+  }
+
+  // The clips of a track with the columns of a head.
+  async clipsOf(track, whose) {
+    const {clips} = this.tracks[track];
+    if (!clips[0]) clips[0] = [new Clip(await data(`track${track}clip`))];
+    if (!clips[whose]) {
+      const name = (i) => (track ? `track${track}clip_${whose}` : `clip${i}_${whose}`);
+      const own = await Promise.all(clips[0].map((_, i) => data(name(i))));
+      clips[whose] = own.map((bytes, i) => (bytes ? new Clip(bytes) : clips[0][i]));
+    }
+    return clips[whose];
+  }
+
+  // Silent, where the browser cannot decode it.
+  async loadBuffer(track) {
+    const to = this.tracks[track];
+    if (to.buffer !== undefined || !track || !to.sound) return;
+    const end = Math.max(...to.clips[0].map((clip) => clip.end));
+    to.buffer = await decodedSound(coded(`track${track}sound`), end).catch(() => {
+      byId('silent').hidden = false;
+      return null;
+    });
   }
 
   nextMode() {
@@ -221,7 +282,8 @@ async function start() {
       ...app.drawn, playing: player.playing, duration: player.duration, rate: player.rate,
       position: player.position(), frames: app.clips[0].frames, clips: app.clips.length,
       sound: Boolean(player.buffer), loop: player.loop(), faps: app.curves.faps,
-      head: Boolean(viewport.view), whose: app.heads[app.whose], ...app.options,
+      head: Boolean(viewport.view), whose: app.heads[app.whose],
+      track: app.tracks[app.track].name, lang: app.tracks[app.track].lang, ...app.options,
     }),
     /** Vertices of a part ('skin' ...) of head 0 or 1 as they are shown, x y z one after the other
         in cm; null without a head. */
@@ -233,6 +295,8 @@ async function start() {
     points: () => (viewport.view ? viewport.view.points() : []),
     /** Another head, by its number in the list. */
     showHead: (which) => app.showHead(which),
+    /** Another language or person, by its number in the list. */
+    showTrack: (which) => app.showTrack(which),
     /** Draws now. */
     draw: () => app.draw(),
     context: () => player.context,
@@ -241,6 +305,7 @@ async function start() {
   Object.assign(window.animeme, api);
   obey(app);
   if (app.heads.includes(asked.get('head'))) await app.showHead(app.heads.indexOf(asked.get('head')));
+  byId('now').lang = app.tracks[0].lang;
   if (facts.sound) {
     await player.loadSound(coded('sound')).catch(() => {
       byId('silent').hidden = false;
@@ -248,6 +313,10 @@ async function start() {
       app.changed();
     });
   }
+  app.tracks[0].buffer = player.buffer;
+  byId('tracks').disabled = false;
+  const language = app.tracks.findIndex(({lang}) => lang && lang === asked.get('lang'));
+  if (language > 0) await app.showTrack(language);
   if (viewport.view) await viewport.view.ready;
   app.draw();
   if (flag('play')) playUnasked(player);

@@ -5,6 +5,20 @@ import {StretchedSource} from './stretch.js';
 const LEAD = 0.02;  // seconds between a decision to play and the first sample
 const JUMP = 0.03;  // the steps of the audio clock are smoothed up to this many seconds
 
+/** The sound of a file, and silence behind it up to `duration` seconds. Rejects if the browser cannot
+    decode it. */
+export async function decodedSound(bytes, duration) {
+  const decoder = new OfflineAudioContext(1, 1, 48000);
+  const sound = await decoder.decodeAudioData(bytes.buffer);
+  const length = Math.ceil(Math.max(duration, sound.duration) * sound.sampleRate);
+  const buffer = new AudioBuffer(
+      {length, sampleRate: sound.sampleRate, numberOfChannels: sound.numberOfChannels});
+  for (let c = 0; c < sound.numberOfChannels; ++c) {
+    buffer.copyToChannel(sound.getChannelData(c), c);
+  }
+  return buffer;
+}
+
 /** Plays from 0 to `duration` seconds; silent until loadSound() is done. */
 export class Player {
   constructor(duration) {
@@ -24,18 +38,19 @@ export class Player {
 
   /** Decodes the sound and makes it as long as the clip. Rejects if the browser cannot. */
   async loadSound(bytes) {
-    const decoder = new OfflineAudioContext(1, 1, 48000);
-    const sound = await decoder.decodeAudioData(bytes.buffer);
-    this.duration = Math.max(this.duration, sound.duration);
-    const length = Math.ceil(this.duration * sound.sampleRate);
-    const buffer = new AudioBuffer(
-        {length, sampleRate: sound.sampleRate, numberOfChannels: sound.numberOfChannels});
-    for (let c = 0; c < sound.numberOfChannels; ++c) {
-      buffer.copyToChannel(sound.getChannelData(c), c);
-    }
-    this.buffer = buffer;
+    this.buffer = await decodedSound(bytes, this.duration);
+    this.duration = Math.max(this.duration, this.buffer.duration);
     this.restart();
     this.onChange();
+  }
+
+  /** Another sound (an AudioBuffer, or null) and length: goes on at the moment that is heard. */
+  exchange(buffer, duration) {
+    this.change(() => {
+      this.buffer = buffer;
+      this.duration = duration;
+      this.at = Math.min(this.at, duration);
+    });
   }
 
   /** Where the loop is: [from, to]; null when it is off or lies behind. */

@@ -56,6 +56,12 @@ export class Viewport {
     this.view.setModel(model);
   }
 
+  /** The clips in another language. */
+  setClips(clips) {
+    this.clips = clips;
+    this.last = [];
+  }
+
   setMode(mode) {
     const chosen = this.clips.length > 1 && MODES.includes(mode) ? mode : 'first';
     if (this.view) this.view.mode = chosen;
