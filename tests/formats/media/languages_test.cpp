@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <string>
 
+#include "codec/encode/encode.h"
 #include "tests/formats/media/media_support.h"
 #include "tools/formats/media/audio.h"
 #include "tools/formats/media/container.h"
@@ -16,6 +17,7 @@ namespace languages_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 TrackLabels labels(const char* language, const char* code, const char* speaker = "") {
   return {language, code, speaker};
@@ -49,14 +51,20 @@ class Languages : public testing::TestWithParam<const char*> {
   void write(const std::vector<Version>& versions, const MuxOptions& options = {}) {
     MuxInput all = input_of(versions.front());
     for (std::size_t i = 1; i < versions.size(); ++i) all.more.push_back(input_of(versions[i]));
+    if (!has_texts()) {
+      all.texts = nullptr;
+      for (MuxInput& further : all.more) further.texts = nullptr;
+    }
     const auto written = write_container(path_, all, options);
     ASSERT_TRUE(written) << written.error().describe();
   }
   void write_alone(const Version& one, const std::string& path) {
     MuxInput alone = input_of(one);
     alone.labels = {};
+    if (!has_texts()) alone.texts = nullptr;
     ASSERT_TRUE(write_container(path, alone));
   }
+  static bool has_texts() { return GetParam() != std::string(".mpd"); }
 
   test::TempDir dir_;
   std::string path_ = dir_.file(std::string("film") + GetParam());
@@ -83,7 +91,7 @@ TEST_P(Languages, EachComesBackAsItWentIn) {
       EXPECT_EQ(face->face.units[i].time, expected->face.units[i].time);
     }
     const auto sound_alone = read_encoded_audio(alone);
-    const auto words_alone = read_text_tracks(alone);
+    const auto words_alone = has_texts() ? read_text_tracks(alone) : std::vector<TextTrack>();
     const TrackScope again(one.labels);
     const auto sound = read_encoded_audio(path_);
     ASSERT_TRUE(sound) << sound.error().describe();
@@ -92,6 +100,7 @@ TEST_P(Languages, EachComesBackAsItWentIn) {
       EXPECT_EQ(sound->packets[i].bytes, sound_alone->packets[i].bytes);
       EXPECT_EQ(sound->packets[i].time, sound_alone->packets[i].time);
     }
+    if (!has_texts()) continue;
     const auto words = read_text_tracks(path_);
     ASSERT_TRUE(words);
     ASSERT_EQ(words->size(), words_alone->size());
@@ -102,7 +111,9 @@ TEST_P(Languages, EachComesBackAsItWentIn) {
   }
   // Without a wish: the first.
   EXPECT_EQ(read_container(path_)->face.units.size(), 100u);
-  EXPECT_EQ(read_text_tracks(path_)->front().cues.front().text, "hello");
+  if (has_texts()) {
+    EXPECT_EQ(read_text_tracks(path_)->front().cues.front().text, "hello");
+  }
 }
 
 TEST_P(Languages, WishesAreUnderstood) {
@@ -140,8 +151,13 @@ TEST_P(Languages, AreListed) {
                    track.labels.language + " " + track.labels.speaker +
                    (track.is_default ? " default" : ""));
   }
-  if (GetParam() == std::string(".m3u8")) {
+  if (GetParam() == std::string(".m3u8") || !has_texts()) {
     for (std::string& one : list) one = one.substr(0, one.find(" default"));
+    if (!has_texts()) {
+      EXPECT_THAT(list, testing::UnorderedElementsAre("face  en ", "face  de-AT Ann", "audio  en ",
+                                                      "audio  de-AT Ann"));
+      return;
+    }
     EXPECT_THAT(list, ElementsAre("face  en ", "face  de-AT Ann", "audio  en ", "audio  de-AT Ann",
                                   "text words en ", "text phones en ", "text words de-AT Ann",
                                   "text phones de-AT Ann"));
@@ -166,7 +182,8 @@ TEST_P(Languages, FragmentsToo) {
 }
 
 TEST_P(Languages, OthersReadThem) {
-  if (GetParam() == std::string(".m3u8")) GTEST_SKIP() << "renditions are listed elsewhere";
+  if (GetParam() == std::string(".m3u8") || !has_texts())
+    GTEST_SKIP() << "renditions are listed elsewhere";
   if (std::system("ffprobe -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "ffmpeg is not here";
   write({version(labels("en", "eng"), 100, 24000, "hello"),
          version(labels("de", "deu"), 90, 48000, "hallo")});
@@ -183,7 +200,7 @@ TEST_P(Languages, OthersReadThem) {
   EXPECT_EQ(said, GetParam() == std::string(".mkv") ? "1,eng\n0,ger\n" : "1,eng\n0,deu\n");
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Languages, testing::Values(".mp4", ".mkv", ".m3u8"),
+INSTANTIATE_TEST_SUITE_P(All, Languages, testing::Values(".mp4", ".mkv", ".m3u8", ".mpd"),
                          [](const auto& param) { return std::string(param.param + 1); });
 
 TEST(TrackLabels, PlaylistsTellThem) {
@@ -194,13 +211,16 @@ TEST(TrackLabels, PlaylistsTellThem) {
   all.more.push_back(input_of(de));
   ASSERT_TRUE(write_container(dir.file("film.m3u8"), all));
   const std::string hls = test::slurp(dir.file("film.m3u8"));
-  EXPECT_THAT(hls, HasSubstr("TYPE=AUDIO,GROUP-ID=\"sound\",NAME=\"en\",LANGUAGE=\"en\","
+  EXPECT_THAT(hls, HasSubstr("TYPE=AUDIO,GROUP-ID=\"sound\",NAME=\"English\",LANGUAGE=\"en\","
                              "DEFAULT=YES,AUTOSELECT=YES"));
-  EXPECT_THAT(hls, HasSubstr("TYPE=AUDIO,GROUP-ID=\"sound\",NAME=\"Ann (de-AT)\","
+  EXPECT_THAT(hls, HasSubstr("TYPE=AUDIO,GROUP-ID=\"sound\",NAME=\"Ann, Deutsch (AT)\","
                              "LANGUAGE=\"de-AT\",DEFAULT=NO,AUTOSELECT=YES"));
-  EXPECT_THAT(hls,
-              HasSubstr("TYPE=VIDEO,GROUP-ID=\"face\",NAME=\"Ann (de-AT)\",LANGUAGE=\"de-AT\""));
-  EXPECT_THAT(hls, HasSubstr("NAME=\"words (Ann, de-AT)\",LANGUAGE=\"de-AT\""));
+  EXPECT_THAT(
+      hls, HasSubstr("TYPE=VIDEO,GROUP-ID=\"face\",NAME=\"Ann, Deutsch (AT)\",LANGUAGE=\"de-AT\""));
+  EXPECT_THAT(hls, HasSubstr("NAME=\"words (Ann, de-AT)\",LANGUAGE=\"de-AT\",DEFAULT=NO,"
+                             "AUTOSELECT=NO,CHARACTERISTICS=\"public.accessibility.transcribes-"
+                             "spoken-dialog\","));
+  EXPECT_THAT(hls, Not(HasSubstr("LANGUAGE=\"zxx-x-en\",DEFAULT=NO,AUTOSELECT=NO,CHAR")));
   EXPECT_THAT(hls, HasSubstr("AUDIO=\"sound\""));
   all.texts = all.more[0].texts = nullptr;
   ASSERT_TRUE(write_container(dir.file("film.mpd"), all));
@@ -212,6 +232,81 @@ TEST(TrackLabels, PlaylistsTellThem) {
   const auto face = read_container(dir.file("film.mpd"));
   ASSERT_TRUE(face) << face.error().describe();
   EXPECT_EQ(face->face.units.size(), 90u);
+}
+
+// A jaw that moves.
+fba::AccessUnits spoken_face(std::size_t frames) {
+  fap::Sequence clip{{25, 1}, {}, ""};
+  for (std::size_t i = 0; i < frames; ++i) {
+    fap::Frame frame;
+    frame.number = std::int64_t(i);
+    frame.set(3, std::int32_t(i * 37 % (frames + 200)));
+    clip.frames.push_back(frame);
+  }
+  const auto stream = fba::encode(clip);
+  EXPECT_TRUE(stream);
+  auto units = fba::split_access_units(*stream);
+  EXPECT_TRUE(units);
+  return *units;
+}
+
+// ISO_639_language_descriptors of sounds, by libavformat, and of faces, by us.
+TEST(TrackLabels, TransportStreamsTellLanguages) {
+  const test::TempDir dir;
+  std::vector<Version> versions = {version(labels("en", "eng"), 100, 24000, "hello"),
+                                   version(labels("de", "deu"), 90, 48000, "hallo"),
+                                   version(labels("fr", "fra"), 80, 96000, "salut")};
+  // Real streams: the start codes in those that are made up look like a program stream.
+  for (Version& one : versions) one.face = spoken_face(one.face.units.size());
+  const auto write = [&](const std::vector<Version>& list, const std::string& name) {
+    MuxInput all = input_of(list.front());
+    for (std::size_t i = 1; i < list.size(); ++i) all.more.push_back(input_of(list[i]));
+    all.texts = nullptr;
+    for (MuxInput& further : all.more) further.texts = nullptr;
+    return write_container(dir.file(name), all);
+  };
+  const auto written = write(versions, "film.ts");
+  ASSERT_TRUE(written) << written.error().describe();
+  const auto info = probe(dir.file("film.ts"));
+  ASSERT_TRUE(info);
+  std::vector<std::string> list;
+  for (const TrackInfo& track : info->tracks)
+    list.push_back(std::string(name_of(track.kind)) + " " + track.labels.code);
+  EXPECT_THAT(
+      list, ElementsAre("face eng", "face deu", "face fra", "audio eng", "audio deu", "audio fra"));
+  for (const Version& one : versions) {
+    ASSERT_TRUE(write({one}, "alone.ts"));
+    const auto alone = read_container(dir.file("alone.ts"));
+    const auto sound_alone = read_encoded_audio(dir.file("alone.ts"));
+    const TrackScope scope(one.labels);
+    const auto face = read_container(dir.file("film.ts"));
+    ASSERT_TRUE(face) << face.error().describe();
+    ASSERT_EQ(face->face.units.size(), one.face.units.size());
+    for (std::size_t i = 0; i < one.face.units.size(); ++i)
+      EXPECT_EQ(face->face.units[i].bytes, one.face.units[i].bytes);
+    const auto sound = read_encoded_audio(dir.file("film.ts"));
+    ASSERT_TRUE(sound) << sound.error().describe();
+    ASSERT_TRUE(sound_alone);
+    ASSERT_EQ(sound->packets.size(), sound_alone->packets.size());
+    for (std::size_t i = 0; i < sound->packets.size(); ++i)
+      EXPECT_EQ(sound->packets[i].bytes, sound_alone->packets[i].bytes);
+  }
+  // Six fit in the program map.
+  std::vector<Version> many;
+  for (const char* code : {"eng", "deu", "fra", "spa", "ita", "nld"})
+    many.push_back(version(labels(code, code), 10, 24000, ""));
+  for (Version& one : many) one.face = spoken_face(50);
+  const auto six = write(many, "six.ts");
+  ASSERT_TRUE(six) << six.error().describe();
+  const auto told = probe(dir.file("six.ts"));
+  ASSERT_TRUE(told);
+  ASSERT_EQ(told->tracks.size(), 12u);
+  EXPECT_EQ(told->tracks[5].labels.code, "nld");
+  EXPECT_EQ(told->tracks[11].labels.code, "nld");
+  many.push_back(version(labels("pl", "pol"), 10, 24000, ""));
+  EXPECT_EQ(write(many, "seven.ts").error().code, Code::unsupported);
+  EXPECT_EQ(write({version(labels("pl", "pol", "Ann"), 10, 24000, "")}, "ann.ts").error().code,
+            Code::unsupported);
 }
 
 TEST(TrackLabels, AreParsed) {

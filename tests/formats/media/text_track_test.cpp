@@ -216,7 +216,8 @@ TEST(TextTracksOfHls, LieBesideTheSegmentsAsWebVtt) {
   }
   const std::string master = test::slurp(path);
   EXPECT_THAT(master, HasSubstr("#EXT-X-MEDIA:TYPE=SUBTITLES,GROUP-ID=\"text\",NAME=\"words\","
-                                "LANGUAGE=\"deu\",DEFAULT=NO,AUTOSELECT=NO,"
+                                "LANGUAGE=\"deu\",DEFAULT=NO,AUTOSELECT=NO,CHARACTERISTICS="
+                                "\"public.accessibility.transcribes-spoken-dialog\","
                                 "URI=\"talk_hls/text-1.m3u8\"\n"));
   EXPECT_THAT(master, HasSubstr(",SUBTITLES=\"text\"\ntalk_hls/sound.m3u8\n"));
   EXPECT_THAT(test::slurp(dir.file("talk_hls/text-1.vtt")),

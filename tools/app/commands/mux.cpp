@@ -247,7 +247,7 @@ Result<void> read_part(const MuxTrack& track, const MuxOptions& options, MuxPart
     part.texts = speech::carried_tracks(track.face, terminal_log());
   }
   if (shows_captions(options.output, options.subtitles)) speech::add_captions(part.texts);
-  input.texts = &part.texts;
+  if (media::takes_text(options.output)) input.texts = &part.texts;
   return {};
 }
 
@@ -322,7 +322,9 @@ void add_options(OptionTable& cli, MuxOptions& options) {
           "A language or a person of a file with several, in place of the arguments, separated by "
           "commas: lang=de and speaker=Ann, then face=de.fba, audio=de.wav and words=de.vtt (a "
           "comma "
-          "in a name is \\,); may be repeated, the first is the default (.mp4 .mkv .m3u8 .mpd)")
+          "in a name is \\,); may be repeated, the first is the default (.mp4 .mkv .m3u8 .mpd; up "
+          "to "
+          "six languages in .ts)")
       ->value("LABELS,FILES")
       ->check(problem_of<read_mux_track>)
       ->one_at_a_time();

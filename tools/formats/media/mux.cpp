@@ -62,12 +62,37 @@ const FileType* type_of(const std::string& path) {
 
 Error unsupported(std::string message) { return make_error(Code::unsupported, std::move(message)); }
 
+// Of a transport stream, which has to fit in a packet.
+Result<void> check_program_map(const MuxInput& input) {
+  std::size_t faces = 0, sounds = 0, labelled = 0;
+  const auto count = [&](const MuxInput& part) {
+    const bool sound =
+        part.audio != nullptr || part.audio_file != nullptr || part.encoded != nullptr;
+    faces += part.has_face() ? 1 : 0;
+    sounds += sound ? 1 : 0;
+    if (!part.labels.empty()) labelled += (part.has_face() ? 1 : 0) + (sound ? 1 : 0);
+  };
+  count(input);
+  for (const MuxInput& further : input.more) count(further);
+  if (program_map_bytes(faces, sounds, labelled) <= kMostProgramMap) return {};
+  return unsupported("a transport stream takes up to six languages; use .mp4, .mkv or .m3u8");
+}
+
 Result<void> check_type(const FileType& type, const MuxInput& input, const MuxOptions& options) {
   const std::string name(type.extension);
   const bool labelled = !input.more.empty() || !input.labels.empty();
-  if (labelled && (options.systems || type.is_ts() || !type.face)) {
+  if (labelled && (options.systems || !type.face)) {
     return unsupported(
-        "several languages or speakers go into plain .mp4 and .mkv, .m3u8 and .mpd files only");
+        "several languages or speakers go into plain .mp4, .mkv, .ts, .m3u8 and .mpd files only");
+  }
+  if (type.is_ts() && !input.labels.speaker.empty()) {
+    return unsupported("a transport stream tells languages but not who speaks; use .mp4 or .mkv");
+  }
+  if (type.is_ts() && !input.more.empty()) {
+    if (auto fits = check_program_map(input); !fits) return fits;
+    if (options.shared_seconds > 0) {
+      return unsupported("planes share packets in files of one face only");
+    }
   }
   for (const MuxInput& further : input.more) {
     if (auto legal = check_type(type, further, options); !legal) return legal;
@@ -112,7 +137,12 @@ Result<void> check_type(const FileType& type, const MuxInput& input, const MuxOp
 
 OutputStream::Filter filter_of(const FileType& type, const MuxInput& input) {
   if (!type.is_ts() || !input.has_face()) return nullptr;
-  const auto filter = std::make_shared<ProgramMapFilter>(std::uint8_t(visual_profile(input)));
+  std::vector<std::string> languages;
+  if (input.has_face()) languages.push_back(input.labels.code);
+  for (const MuxInput& further : input.more)
+    if (further.has_face()) languages.push_back(further.labels.code);
+  const auto filter =
+      std::make_shared<ProgramMapFilter>(std::uint8_t(visual_profile(input)), std::move(languages));
   return [filter](std::span<const std::uint8_t> bytes) { return filter->push(bytes); };
 }
 

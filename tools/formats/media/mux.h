@@ -53,7 +53,8 @@ struct MuxInput {
   /// The same in further languages, or of further people: each a face, a sound, texts, or any of
   /// them, with labels of its own. Faces of one person stand for each other, as do its sounds and
   /// its texts of one name (mp4: alternate groups); the first of a kind is the default. Neither
-  /// pictures nor another list in them. In .mp4, .mkv, .m3u8 and .mpd.
+  /// pictures nor another list in them. In .mp4, .mkv, .m3u8 and .mpd, and up to six languages
+  /// without speakers in .ts.
   std::vector<MuxInput> more = {};
   /// Visual profile and level for the file's own table of contents (mp4 `iods`): 0x61..0x64.
   /// 0: as in the face's configuration, 0x61 if that has none.

@@ -23,6 +23,7 @@
 #define av_dict_set ANIMEME_FFMPEG(av_dict_set)
 #define av_dict_set_int ANIMEME_FFMPEG(av_dict_set_int)
 #define av_find_best_stream ANIMEME_FFMPEG(av_find_best_stream)
+#define av_find_input_format ANIMEME_FFMPEG(av_find_input_format)
 #define av_frame_alloc ANIMEME_FFMPEG(av_frame_alloc)
 #define av_frame_free ANIMEME_FFMPEG(av_frame_free)
 #define av_frame_get_buffer ANIMEME_FFMPEG(av_frame_get_buffer)

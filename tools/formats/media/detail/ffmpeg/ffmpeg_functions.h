@@ -42,6 +42,7 @@ extern "C" {
   X(av_dict_set) \
   X(av_dict_set_int) \
   X(av_find_best_stream) \
+  X(av_find_input_format) \
   X(av_frame_alloc) \
   X(av_frame_free) \
   X(av_frame_get_buffer) \

@@ -153,7 +153,8 @@ Result<void> Input::start(const std::string& hint, const char* formats) {
   av::Options options;
   options.set("protocol_whitelist", std::string("none"));  // for demuxers that open others
   if (formats != nullptr) options.set("format_whitelist", std::string(formats));
-  const int status = avformat_open_input(&context_, hint.c_str(), nullptr, options.get());
+  const AVInputFormat* known = holds_transport_stream() ? av_find_input_format("mpegts") : nullptr;
+  const int status = avformat_open_input(&context_, hint.c_str(), known, options.get());
   if (status >= 0) {
     reveal_metadata();
     return show_wanted();
@@ -208,6 +209,19 @@ void Input::reveal_metadata() {
       parameters.codec_id = track.face ? AV_CODEC_ID_MPEG4 : AV_CODEC_ID_MOV_TEXT;
     }
   }
+}
+
+// Several faces, whose planes have start codes, look to libavformat like a program stream.
+bool Input::holds_transport_stream() {
+  constexpr std::size_t kPackets = 5, kPacketSize = 188;
+  if (size_ < std::int64_t(kPackets * kPacketSize)) return false;
+  std::array<std::uint8_t, kPackets * kPacketSize> head{};
+  const int count = read_some(head.data(), int(head.size()));
+  seek_to(0, SEEK_SET);
+  if (count < int(head.size())) return false;
+  for (std::size_t at = 0; at < head.size(); at += kPacketSize)
+    if (head[at] != 0x47) return false;
+  return true;
 }
 
 // Of Matroska, whose tracks lie in front of the data.

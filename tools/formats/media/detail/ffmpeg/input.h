@@ -48,6 +48,7 @@ class Input {
   Input() = default;
   Result<void> start(const std::string& hint, const char* formats);
   bool holds_raw_stream();
+  bool holds_transport_stream();
   Result<void> look_at_boxes();
   void reveal_metadata();
   void read_language_tags();

@@ -5,6 +5,8 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "tools/formats/media/detail/segments/autonym.h"
+
 namespace animeme::media {
 namespace {
 
@@ -52,12 +54,12 @@ std::string variant(const SegmentedTrack& track, const std::string& folder, bool
          folder + "/" + track.name + ".m3u8\n";
 }
 
-// What a person reads in a menu, unique in its group.
+// What a person reads in a menu, in the language of the track as RFC 8216 recommends it (section
+// 4.3.4.1), and unique in its group.
 std::string name_of(const SegmentedTrack& track) {
   const TrackLabels& labels = track.labels;
-  std::string name = labels.speaker.empty()    ? labels.language
-                     : labels.language.empty() ? labels.speaker
-                                               : labels.speaker + " (" + labels.language + ")";
+  std::string name = autonym_of(labels.language);
+  if (!labels.speaker.empty()) name = labels.speaker + (name.empty() ? "" : ", " + name);
   if (name.empty()) name = track.name;
   std::erase(name, '"');
   return name;
@@ -144,8 +146,11 @@ std::string hls_master(const std::vector<SegmentedTrack>& tracks, const std::str
     }
     std::erase(name, '"');
     text += "#EXT-X-MEDIA:TYPE=SUBTITLES,GROUP-ID=\"text\",NAME=\"" + name + "\",LANGUAGE=\"" +
-            each.language + "\",DEFAULT=NO,AUTOSELECT=NO,URI=\"" + folder + "/" + each.playlist +
-            "\"\n";
+            each.language + "\",DEFAULT=NO,AUTOSELECT=NO," +
+            (each.language.starts_with("zxx")  // phones
+                 ? ""
+                 : "CHARACTERISTICS=\"public.accessibility.transcribes-spoken-dialog\",") +
+            "URI=\"" + folder + "/" + each.playlist + "\"\n";
   }
   for (const SegmentedTrack& track : tracks) {
     if (labelled && (has_sound || !track.is_default)) text += media_tag(track, folder);

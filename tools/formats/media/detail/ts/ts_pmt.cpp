@@ -12,6 +12,7 @@ namespace {
 constexpr std::uint8_t kMapTable = 0x02;
 constexpr std::uint8_t kVisualStreamType = 0x10;  // stream type of 14496-2
 constexpr std::uint8_t kDescriptor = 0x1B;        // MPEG-4_video_descriptor
+constexpr std::uint8_t kLanguage = 0x0A;          // ISO_639_language_descriptor
 
 void put_u12(std::vector<std::uint8_t>& bytes, std::size_t at, std::size_t value) {
   bytes[at] = std::uint8_t((bytes[at] & 0xF0) | (value >> 8 & 0x0F));
@@ -35,14 +36,15 @@ ByteSpan section_at(ByteSpan packet, std::size_t at) {
   return at + size <= packet.size() ? packet.subspan(at, size) : ByteSpan();
 }
 
-bool has_descriptor(ByteSpan descriptors) {
+bool has_descriptor(ByteSpan descriptors, std::uint8_t tag) {
   for (std::size_t at = 0; at + 2 <= descriptors.size(); at += 2 + std::size_t(descriptors[at + 1]))
-    if (descriptors[at] == kDescriptor) return true;
+    if (descriptors[at] == tag) return true;
   return false;
 }
 
 /// The map with the descriptors, without its CRC; empty: nothing is to be done, or it is damaged.
-std::vector<std::uint8_t> describe(ByteSpan section, std::uint8_t profile) {
+std::vector<std::uint8_t> describe(ByteSpan section, std::uint8_t profile,
+                                   const std::vector<std::string>& languages) {
   constexpr std::size_t kFixed = 12;  // up to program_info_length
   if (section.size() < kFixed + kTsCrcSize) return {};
   const std::size_t end = section.size() - kTsCrcSize;
@@ -50,16 +52,26 @@ std::vector<std::uint8_t> describe(ByteSpan section, std::uint8_t profile) {
   if (at > end) return {};
   std::vector<std::uint8_t> out(section.begin(), section.begin() + std::ptrdiff_t(at));
   bool changed = false;
+  std::size_t faces = 0;
   while (at + 5 <= end) {
     const std::size_t length = read_big_endian(section, at + 3, 2) & 0x0FFF;
     if (at + 5 + length > end) return {};
     const ByteSpan entry = section.subspan(at, 5 + length);
     const std::size_t begin = out.size();
     out.insert(out.end(), entry.begin(), entry.end());
-    if (entry[0] == kVisualStreamType && !has_descriptor(entry.subspan(5))) {
-      out.insert(out.end(), {kDescriptor, 1, profile});
-      put_u12(out, begin + 3, length + 3);
-      changed = true;
+    if (entry[0] == kVisualStreamType) {
+      const ByteSpan known = entry.subspan(5);
+      if (!has_descriptor(known, kDescriptor)) out.insert(out.end(), {kDescriptor, 1, profile});
+      const std::string code = faces < languages.size() ? languages[faces] : std::string();
+      ++faces;
+      if (code.size() == 3 && !has_descriptor(known, kLanguage)) {
+        out.insert(out.end(), {kLanguage, 4});
+        out.insert(out.end(), code.begin(), code.end());
+        out.push_back(0);  // no type of sound
+      }
+      const std::size_t now = out.size() - begin - 5;
+      put_u12(out, begin + 3, now);
+      changed = changed || now != length;
     }
     at += 5 + length;
   }
@@ -69,6 +81,11 @@ std::vector<std::uint8_t> describe(ByteSpan section, std::uint8_t profile) {
 }
 
 }  // namespace
+
+std::size_t program_map_bytes(std::size_t faces, std::size_t sounds, std::size_t labelled) {
+  // Header and CRC, type and PID of a stream, MPEG-4_video_descriptor, language.
+  return 16 + 5 * (faces + sounds) + 3 * faces + 6 * labelled;
+}
 
 void ProgramMapFilter::rewrite(std::span<std::uint8_t> packet) {
   const std::size_t at = section_begin(packet);
@@ -82,7 +99,7 @@ void ProgramMapFilter::rewrite(std::span<std::uint8_t> packet) {
   }
   const bool map = std::find(map_pids_.begin(), map_pids_.end(), pid) != map_pids_.end();
   if (!map || section[0] != kMapTable) return;
-  std::vector<std::uint8_t> described = describe(section, profile_);
+  std::vector<std::uint8_t> described = describe(section, profile_, languages_);
   if (described.empty() || at + described.size() + kTsCrcSize > packet.size()) return;
   // What follows the section in its packet must be stuffing, or it would be lost.
   const auto behind = packet.subspan(at + section.size());
