@@ -54,8 +54,8 @@ std::string variant(const SegmentedTrack& track, const std::string& folder, bool
          folder + "/" + track.name + ".m3u8\n";
 }
 
-// What a person reads in a menu, in the language of the track as RFC 8216 recommends it (section
-// 4.3.4.1), and unique in its group.
+// What a person reads in a menu, in the language of the track as RFC 8216 recommends it for
+// EXT-X-MEDIA, and unique in its group.
 std::string name_of(const SegmentedTrack& track) {
   const TrackLabels& labels = track.labels;
   std::string name = autonym_of(labels.language);
