@@ -28,13 +28,13 @@ TEST(Background, ColoursAreReadAsInCss) {
 }
 
 TEST(Background, KindsAndWhatIsNone) {
-  EXPECT_EQ(parse_background("")->kind, Background::Kind::usual);
   EXPECT_EQ(parse_background("none")->kind, Background::Kind::none);
   const auto picture = parse_background("my room.JPG");
   ASSERT_TRUE(picture);
   EXPECT_EQ(picture->kind, Background::Kind::picture);
   EXPECT_EQ(picture->path, "my room.JPG");
-  for (const std::string_view wrong : {"#12", "#12345", "#12345g", "#", "whit", "room.bmp", " "}) {
+  for (const std::string_view wrong :
+       {"#12", "#12345", "#12345g", "#", "whit", "room.bmp", " ", ""}) {
     const auto read = parse_background(wrong);
     ASSERT_FALSE(read) << wrong;
     EXPECT_THAT(read.error().message, HasSubstr("is no background"));

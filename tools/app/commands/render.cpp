@@ -94,6 +94,7 @@ std::string problem_of_view(const std::string& text) {
 struct Plan {
   Pair size;
   Pair sheet;
+  studio::Background background;
   studio::HeadLook look;
 };
 
@@ -110,12 +111,15 @@ Result<Plan> make_plan(const RenderOptions& options) {
   if (std::string problem = studio::problem_of(options.head); !problem.empty()) {
     return make_error(Code::invalid_argument, std::move(problem));
   }
-  const auto background = studio::parse_background(options.background);
-  if (!background) return background.error();
-  plan.look = {options.head, render::view_degrees(options.view).value_or(0),
-               options.up,   options.zoom,
-               plan.size.x,  plan.size.y,
-               *background};
+  if (!options.background.empty()) {
+    const auto background = studio::parse_background(options.background);
+    if (!background) return background.error();
+    plan.background = *background;
+  }
+  plan.look = {options.head,   render::view_degrees(options.view).value_or(0),
+               options.up,     options.zoom,
+               plan.size.x,    plan.size.y,
+               plan.background};
   return plan;
 }
 

@@ -57,7 +57,6 @@ std::string lower(std::string_view text) {
 }  // namespace
 
 Result<Background> parse_background(std::string_view text) {
-  if (text.empty()) return Background{};
   const std::string plain = lower(text);
   if (plain == "none" || plain == "transparent") return Background{Background::Kind::none, 0, {}};
   if (const auto colour = hexadecimal(plain))

@@ -30,8 +30,7 @@ struct Background {
 
 /// Reads "none", "#RRGGBB", "#RGB", a colour by its name in CSS (16 basic ones, orange and green
 /// screens: "green" is CSS's, "lime" is #00FF00), or the name of a picture, which ends in .png,
-/// .jpg, .jpeg or .webp and is not opened here. An empty text is the usual background. Errors:
-/// invalid_argument.
+/// .jpg, .jpeg or .webp and is not opened here. Errors: invalid_argument.
 Result<Background> parse_background(std::string_view text);
 
 /// The picture of a background of that kind, scaled and cut to width x height pixels; nullptr for
