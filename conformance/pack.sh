@@ -28,7 +28,8 @@ done
 update() { # name
   mkdir "$work/old"
   [ ! -f "$here/$1.tar.xz" ] || tar -C "$work/old" -xf "$here/$1.tar.xz"
-  diff -rq --exclude=case.json "$work/old" "$work/$1" >/dev/null || pack "$work/$1" "$here/$1.tar.xz"
+  diff -rq --exclude=case.json "$work/old" "$work/$1" >/dev/null ||
+    pack "$work/$1" "$here/$1.tar.xz"
   rm -r "$work/old"
 }
 update reference

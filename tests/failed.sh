@@ -1,7 +1,7 @@
 #!/bin/sh
-# tests/failed.sh PRESET...: names and output of the tests that failed in the last run of each preset:
-# at the end of a log, where it is seen, and all that is left of a log that is cut. Of a long output
-# what surrounds each failure of GoogleTest, and the end.
+# tests/failed.sh PRESET...: names and output of the tests that failed in the last run of each
+# preset: at the end of a log, where it is seen, and all that is left of a log that is cut. Of a
+# long output what surrounds each failure of GoogleTest, and the end.
 cd "$(dirname "$0")/.."
 for preset in "$@"; do
   log=build/$preset/tests.xml

@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
-"""Can the tests of a module fail? Changes one operator of its sources at a time and runs the module's own tests.
+"""Can the tests of a module fail? Changes one operator of its sources at a time and runs the
+module's own tests.
 
     tests/mutate.py fap --seed 1 --number 20            # in build/release
     tests/mutate.py tools/formats/exchange --tests test_exchange --build build/files
     tests/mutate.py fap --at fap/arkit.cpp:118          # each operator of one line
 
-A change that no test notices is a survivor: a missing test, or no fault (a guard that is reached by nothing, two ways to
-the same result). The file is put back after each change, also on Ctrl-C and SIGTERM; a killed run is put back by the
-next one. Exit code 1: more survivors than --most-survivors."""
+A change that no test notices is a survivor: a missing test, or no fault (a guard that is reached by
+nothing, two ways to the same result). The file is put back after each change, also on Ctrl-C and
+SIGTERM; a killed run is put back by the next one. Exit code 1: more survivors than
+--most-survivors."""
 
 import argparse
 import json
@@ -20,10 +22,12 @@ import sys
 import time
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-OTHER = {"<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==", "&&": "||", "||": "&&", "+": "-", "-": "+",
+OTHER = {"<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==", "&&": "||", "||": "&&",
+    "+": "-", "-": "+",
          "*": "/", "/": "*", "%": "*", "+=": "-=", "-=": "+=", "&": "|", "|": "&"}
 # Formatted code has blanks around the operators of two operands, and none in templates.
-OPERATOR = re.compile(r"(?<= )(" + "|".join(re.escape(one) for one in sorted(OTHER, key=len, reverse=True)) + r")(?= )")
+OPERATOR = re.compile(r"(?<= )(" + "|".join(re.escape(one) for one
+    in sorted(OTHER, key=len, reverse=True)) + r")(?= )")
 # As tests/CMakeLists.txt names them; others are called after the folder.
 TESTS = {"fap/head": "test_head", "fap/xml": "test_xml"}
 
@@ -33,15 +37,19 @@ def code_only(text):
     def blank(match):
         return re.sub(r"[^\n]", " ", match.group())
 
-    text = re.sub(r'R"\((?:.|\n)*?\)"|//[^\n]*|/\*(?:.|\n)*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'', blank, text)
+    text = re.sub(
+        r'R"\((?:.|\n)*?\)"|//[^\n]*|/\*(?:.|\n)*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'',
+        blank, text)
     return re.sub(r"^[ ]*(#|static_assert|template|using)[^\n]*", blank, text, flags=re.M)
 
 
 def sources(module):
     """Those whose tests are the module's: not of modules below it that have tests of their own."""
-    found = subprocess.run(["git", "ls-files", module], cwd=ROOT, capture_output=True, text=True, check=True).stdout.split()
+    found = subprocess.run(["git", "ls-files", module], cwd=ROOT, capture_output=True, text=True,
+        check=True).stdout.split()
     inner = [one + "/" for one in TESTS if one.startswith(module + "/")]
-    return [one for one in found if one.endswith(".cpp") and not any(one.startswith(folder) for folder in inner)]
+    return [one for one in found if one.endswith(".cpp")
+        and not any(one.startswith(folder) for folder in inner)]
 
 
 def places_in(path):
@@ -52,7 +60,8 @@ def places_in(path):
 
 
 class Changed:
-    """A file with one operator changed, as long as the block lasts; a note of it is in the build folder."""
+    """A file with one operator changed, as long as the block lasts; a note of it is in the build
+    folder."""
 
     def __init__(self, note, path, at, old):
         self.note, self.path = note, os.path.join(ROOT, path)
@@ -86,7 +95,8 @@ def put_back(note):
 
 def run(command, seconds):
     """Exit code; None: it took too long. Children end with it."""
-    process = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+    process = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
                                start_new_session=True)
     try:
         return process.wait(seconds)
@@ -132,7 +142,8 @@ def main():
         path, line = options.at.rsplit(":", 1)
         chosen = [place for place in all_places if place[0] == path and place[3] == int(line)]
     else:
-        chosen = random.Random(options.seed).sample(all_places, min(options.number, len(all_places)))
+        chosen = random.Random(options.seed).sample(all_places,
+            min(options.number, len(all_places)))
     noticed, survivors = 0, []
     for path, at, old, line in chosen:
         with Changed(note, path, at, old):
@@ -140,7 +151,8 @@ def main():
             if run(make, None) != 0:
                 how = "by the compiler"
             for one in tests if not how else ():
-                code = run([os.path.join(build, "bin", one), "--gtest_filter=" + options.filter, "--gtest_fail_fast"], patience)
+                code = run([os.path.join(build, "bin", one), "--gtest_filter=" + options.filter,
+                    "--gtest_fail_fast"], patience)
                 if code != 0:
                     how = "as it took too long" if code is None else f"by {one}"
                     break

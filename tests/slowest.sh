@@ -1,6 +1,7 @@
 #!/bin/sh
-# tests/slowest.sh [PRESET [COUNT [steps]]]: the slowest steps of the last build and the slowest tests of the last run, in
-# seconds of wall clock; ten of each unless COUNT is given, only the steps with "steps". Presets: release (the default), asan ...
+# tests/slowest.sh [PRESET [COUNT [steps]]]: the slowest steps of the last build and the slowest
+# tests of the last run, in seconds of wall clock; ten of each unless COUNT is given, only the steps
+# with "steps". Presets: release (the default), asan ...
 folder=$(cd "$(dirname "$0")/.." && pwd)/build/${1:-release}
 echo "== Slowest build steps"
 awk -F'\t' 'NF >= 4 && $4 !~ /^\// { took[$4] = ($2 - $1) / 1000 }

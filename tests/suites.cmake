@@ -1,9 +1,10 @@
 # One test of CTest a suite of GoogleTest: most tests take less time than their program to start.
 #
-# suites_of(TARGET PREFIX [FILTER] [CORE] [LABELS ...] [PROPERTIES ...]): FILTER as of --gtest_filter, either tests to run or,
-# behind "-", tests to leave out. CORE is a filter, too: suites with a test that it matches get the label "core" (all of their
-# tests run in the plain round). The suites are listed when the program has been linked. A suite that fails prints which of its
-# tests did, one that skips some is passed, and tests/skipped.sh tells them.
+# suites_of(TARGET PREFIX [FILTER] [CORE] [LABELS ...] [PROPERTIES ...]): FILTER as of
+# --gtest_filter, either tests to run or, behind "-", tests to leave out. CORE is a filter, too:
+# suites with a test that it matches get the label "core" (all of their tests run in the plain
+# round). The suites are listed when the program has been linked. A suite that fails prints which of
+# its tests did, one that skips some is passed, and tests/skipped.sh tells them.
 if(NOT CMAKE_SCRIPT_MODE_FILE)
   set(suites_script ${CMAKE_CURRENT_LIST_FILE})
   function(suites_of target prefix)
@@ -12,8 +13,10 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
     string(SUBSTRING ${key} 0 6 key)
     set(file ${CMAKE_CURRENT_BINARY_DIR}/${target}_${key}_suites.cmake)
     add_custom_command(TARGET ${target} POST_BUILD
-      COMMAND ${CMAKE_COMMAND} -D "program=$<TARGET_FILE:${target}>" -D "prefix=${prefix}" -D "filter=${ARG_FILTER}"
-        -D "core=${ARG_CORE}" -D "labels=${ARG_LABELS}" -D "properties=${ARG_PROPERTIES}" -D "file=${file}" -P ${suites_script}
+      COMMAND ${CMAKE_COMMAND} -D "program=$<TARGET_FILE:${target}>" -D "prefix=${prefix}" -D
+      "filter=${ARG_FILTER}"
+        -D "core=${ARG_CORE}" -D "labels=${ARG_LABELS}" -D "properties=${ARG_PROPERTIES}" -D
+        "file=${file}" -P ${suites_script}
       VERBATIM)
     # Until it is built, the program itself is what fails.
     file(WRITE ${file}.missing.cmake

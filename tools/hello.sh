@@ -1,6 +1,7 @@
 #!/bin/sh
-# From a fresh checkout to a talking face: installs the missing packages, builds the program, speaks. Prints the time of
-# each part, in seconds of wall clock and of CPU, and the slowest steps of the build.
+# From a fresh checkout to a talking face: installs the missing packages, builds the program,
+# speaks. Prints the time of each part, in seconds of wall clock and of CPU, and the slowest steps
+# of the build.
 #   tools/hello.sh                          writes hello.mp4
 #   tools/hello.sh "Any text" out.mp4 [options of animeme speak]
 set -eu
@@ -11,7 +12,8 @@ output=${2:-hello.mp4}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# part TITLE COMMAND...: runs it and notes its time. `times` counts the CPU of all that this shell has run.
+# part TITLE COMMAND...: runs it and notes its time. `times` counts the CPU of all that this shell
+# has run.
 part() {
   title=$1
   shift
@@ -19,7 +21,8 @@ part() {
   times >"$work/before"
   "$@"
   times >"$work/after"
-  cat "$work/before" "$work/after" | tr 'ms' '  ' | awk -v title="$title" -v begin="$begin" -v end="$(date +%s.%N)" '
+  cat "$work/before" "$work/after" | tr 'ms' '  ' | awk -v title="$title" -v begin="$begin" \
+    -v end="$(date +%s.%N)" '
     NR % 2 == 0 { cpu[NR / 2] = 60 * $1 + $2 + 60 * $3 + $4 }
     END { printf "%-10s %7.1f s  %7.1f s of CPU\n", title, end - begin, cpu[2] - cpu[1] }' >>"$work/times"
 }
@@ -40,7 +43,8 @@ part build build
 cd - >/dev/null
 part speak "$here/build/release/bin/animeme" speak --text "$text" -o "$output" "$@"
 {
-  [ -z "$(find "$here/build/release/.ninja_log" -newer "$work/log")" ] || "$here/tests/slowest.sh" release 5 steps
+  [ -z "$(find "$here/build/release/.ninja_log" -newer "$work/log")" ] ||
+    "$here/tests/slowest.sh" release 5 steps
   cat "$work/times"
   "$here/tools/setup.sh" check all 2>/dev/null ||
     echo "To align recordings, and for Chinese and Japanese, install more packages: tools/setup.sh all"

@@ -1,21 +1,27 @@
 #!/bin/sh
-# Installs the Debian packages that Animeme needs and that are missing on a Debian 12. Asks no questions; uses sudo
-# when it is not root.
+# Installs the Debian packages that Animeme needs and that are missing on a Debian 12. Asks no
+# questions; uses sudo when it is not root.
 #   tools/setup.sh           what the program needs to be built and to speak, show and stream
-#   tools/setup.sh check     prints which of these are missing; exit code 1 if any is ("check all": also of the next line)
-#   tools/setup.sh all       also what single features need: alignment and recognition of speech (English model),
-#                            Chinese and Japanese readings, languages guessed by their words, Draco in glTF files
+#   tools/setup.sh check     prints which of these are missing; exit code 1 if any is ("check all":
+#                            also of the next line)
+#   tools/setup.sh all       also what single features need: alignment and recognition of speech
+#                            (English model), Chinese and Japanese readings, languages guessed by
+#                            their words, Draco in glTF files
 #   tools/setup.sh tests     also what tests/run.sh needs, and small programs that read our files
-#   tools/setup.sh full      also what tests/run.sh full needs: clang with WebAssembly, Chromium, GStreamer, mpv, Doxygen, and
-#                            npm packages in tests/readers/js/node_modules and tools/characters/trackers/mediapipe/node_modules
-#   tools/setup.sh bindings  also what packages for other languages are made and tested with: Emscripten, Chromium, npm, Blender
+#   tools/setup.sh full      also what tests/run.sh full needs: clang with WebAssembly, Chromium,
+#                            GStreamer, mpv, Doxygen, and npm packages in
+#                            tests/readers/js/node_modules and
+#                            tools/characters/trackers/mediapipe/node_modules
+#   tools/setup.sh bindings  also what packages for other languages are made and tested with:
+#                            Emscripten, Chromium, npm, Blender
 #   tools/setup.sh site      what builds the site and looks for dead links in it
 #   tools/setup.sh elsewhere compilers for WebAssembly and ARM, and what runs their programs
 #   tools/setup.sh packages  what tools/release/packaging/deb.sh and clean_root.sh need
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
 
-# 190 MB of downloads on a minimal Debian 12: what is large or for one feature only is in `features`.
+# 190 MB of downloads on a minimal Debian 12: what is large or for one feature only is in
+# `features`.
 packages="
   g++ cmake ninja-build pkg-config
   libeigen3-dev libcli11-dev nlohmann-json3-dev libpng-dev libjpeg-dev libwebp-dev
@@ -34,7 +40,8 @@ case $mode in
 esac
 # Only the tests need these.
 case $mode in
-  tests | full | bindings) packages="$packages ca-certificates ccache libgtest-dev libgmock-dev libbenchmark-dev" ;;
+  tests | full | bindings)
+    packages="$packages ca-certificates ccache libgtest-dev libgmock-dev libbenchmark-dev" ;;
 esac
 case $mode in
   full) packages="$packages clang-14 libclang-rt-14-dev llvm-14 lld-14 wasi-libc libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32" ;;
@@ -49,7 +56,8 @@ foreign="emscripten g++-aarch64-linux-gnu qemu-user"
 # Without these, tests skip and say so.
 readers="curl haproxy nginx-light ffmpeg liblo-tools mediainfo mkvtoolnix clang-format-14 universal-ctags make parallel python3-yaml
   pybind11-dev python3-dev python3-pytest python3-numpy python3-matplotlib python3-pip python3-setuptools python3-wheel"
-[ "$mode" = full ] && readers="$readers mpv chromium doxygen slurm-wlm munge libopenmpi-dev man-db zsh fish ruby
+[ "$mode" = full ] &&
+  readers="$readers mpv chromium doxygen slurm-wlm munge libopenmpi-dev man-db zsh fish ruby
   gstreamer1.0-tools gstreamer1.0-plugins-base gstreamer1.0-plugins-good gstreamer1.0-plugins-bad gstreamer1.0-nice
   libgstreamer1.0-dev libgstreamer-plugins-base1.0-dev libgstreamer-plugins-bad1.0-dev libcurl4-gnutls-dev"
 [ "$mode" = bindings ] && readers="$readers $foreign chromium blender"
@@ -132,5 +140,6 @@ case $mode in
   *) exit 0 ;;
 esac
 for folder in $folders; do
-  install_npm_packages $folder >&2 || echo "warning: without npm packages of $folder tests will skip" >&2
+  install_npm_packages $folder >&2 ||
+    echo "warning: without npm packages of $folder tests will skip" >&2
 done

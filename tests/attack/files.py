@@ -1,7 +1,9 @@
-"""Mutated and cut files through the commands that read them.  files.py PROGRAM [--number N] [--seed S]
+"""Mutated and cut files through the commands that read them.  files.py PROGRAM [--number N] [--seed
+S]
 
-A mutation flips, repeats, removes or replaces bytes, or cuts the end. Whatever comes of it: the program ends by itself
-with an exit code of its own and, if it refuses, with a sentence; within a limit of memory and CPU time."""
+A mutation flips, repeats, removes or replaces bytes, or cuts the end. Whatever comes of it: the
+program ends by itself with an exit code of its own and, if it refuses, with a sentence; within a
+limit of memory and CPU time."""
 
 import argparse
 import os
@@ -15,7 +17,8 @@ MEMORY = 400_000 << 10
 DATA = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 SECONDS = 60  # of CPU
 
-SPECIAL = [b"\0" * 4, b"\xff" * 4, b"\x7f\xff\xff\xff", b"\x80\0\0\0", b"1e999", b"-1", b"nan", b"\0\0\x01\xb1", b"{", b"]", b"\n"]
+SPECIAL = [b"\0" * 4, b"\xff" * 4, b"\x7f\xff\xff\xff", b"\x80\0\0\0", b"1e999", b"-1", b"nan",
+    b"\0\0\x01\xb1", b"{", b"]", b"\n"]
 
 
 def mutated(data, rng):
@@ -53,7 +56,8 @@ def main():
             resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
             resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
 
-        return subprocess.run([options.program, *arguments], preexec_fn=limit, capture_output=True, timeout=600)
+        return subprocess.run([options.program, *arguments], preexec_fn=limit, capture_output=True,
+            timeout=600)
 
     with tempfile.TemporaryDirectory(prefix="files-") as folder:
         os.environ["XDG_CACHE_HOME"] = folder
@@ -64,7 +68,8 @@ def main():
         for kind in kinds:
             made = run("speak", "--script", path("s.tsv"), "-o", path("a." + kind))
             assert made.returncode == 0, made.stderr
-        two = run("mux", "--track", f"lang=en,face={path('a.fba')}", "--track", f"lang=de,speaker=Ann,face={path('a.fba')}", "-o",
+        two = run("mux", "--track", f"lang=en,face={path('a.fba')}", "--track",
+            f"lang=de,speaker=Ann,face={path('a.fba')}", "-o",
                   path("two.mp4"))
         files = {path("a." + kind): ["info", "edit", "over"] for kind in kinds}
         files[path("a.fap")] += ["encode"]
@@ -81,10 +86,14 @@ def main():
                 if found.endswith((".c3d", ".csv", ".json", ".npy")):
                     files[os.path.join(DATA, place, found)] = ["import"]
         commands = {"info": ["info", "IN"], "encode": ["encode", "IN", "-o", path("o.fba")],
-                    "decode": ["decode", "IN", "-o", path("o.fap")], "demux": ["demux", "IN", "--face", path("o.fba")],
-                    "import": ["import", "IN", "-o", path("o.fap")], "speak": ["speak", "--script", "IN", "-o", path("o.fap")],
-                    "edit": ["edit", "IN", "--from", "0.1", "--scale", "lips=0.5", "-o", path("o.fba")],
-                    "over": ["speak", "--script", path("s.tsv"), "--over", "IN", "-o", path("o.fap")],
+                    "decode": ["decode", "IN", "-o", path("o.fap")],
+                    "demux": ["demux", "IN", "--face", path("o.fba")],
+                    "import": ["import", "IN", "-o", path("o.fap")],
+                    "speak": ["speak", "--script", "IN", "-o", path("o.fap")],
+                    "edit": ["edit", "IN", "--from", "0.1", "--scale", "lips=0.5", "-o",
+                    path("o.fba")],
+                    "over": ["speak", "--script", path("s.tsv"), "--over", "IN", "-o",
+                    path("o.fap")],
                     "track": ["demux", "IN", "--track", "lang=de", "--face", path("o.fba")]}
         seeds = {}
         for name in files:
@@ -105,7 +114,8 @@ def main():
                 kept = f"attack-{options.seed}-{number}{os.path.splitext(name)[1]}"
                 with open(kept, "wb") as out:
                     out.write(data)
-                raise SystemExit(f"{' '.join(command)}: exit code {done.returncode}: {said[-300:]}; see {kept}")
+                raise SystemExit(
+                    f"{' '.join(command)}: exit code {done.returncode}: {said[-300:]}; see {kept}")
             refused += done.returncode != 0
         print(f"{options.number} files, {refused} of them refused")
 

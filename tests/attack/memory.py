@@ -1,7 +1,9 @@
-"""Programs without memory end with a sentence and an exit code of their own.  memory.py PROGRAM [--all]
+"""Programs without memory end with a sentence and an exit code of their own.  memory.py PROGRAM
+[--all]
 
-Each command runs under limits of its address space (ulimit -v) that lead from none of its libraries to all of them, also
-where a library would end the process itself. No limit may end it by a signal or with a code that is none of ours."""
+Each command runs under limits of its address space (ulimit -v) that lead from none of its libraries
+to all of them, also where a library would end the process itself. No limit may end it by a signal
+or with a code that is none of ours."""
 
 import os
 import resource
@@ -19,7 +21,8 @@ def run(arguments, kilobytes):
         if kilobytes:
             resource.setrlimit(resource.RLIMIT_AS, (kilobytes * 1024, kilobytes * 1024))
 
-    return subprocess.run([PROGRAM, *arguments], preexec_fn=limit, capture_output=True, text=True, errors="replace",
+    return subprocess.run([PROGRAM, *arguments], preexec_fn=limit, capture_output=True, text=True,
+        errors="replace",
                           timeout=300)
 
 
@@ -27,7 +30,8 @@ def check(name, arguments, kilobytes):
     """True: it had enough."""
     done = run(arguments, kilobytes)
     if done.returncode not in CODES:
-        raise SystemExit(f"{name} with {kilobytes} kB: exit code {done.returncode}: {done.stderr[-300:]}")
+        raise SystemExit(
+            f"{name} with {kilobytes} kB: exit code {done.returncode}: {done.stderr[-300:]}")
     if done.returncode and not done.stderr.strip():
         raise SystemExit(f"{name} with {kilobytes} kB: exit code {done.returncode} and no word")
     return done.returncode == 0
@@ -49,7 +53,8 @@ def main():
         }
         if "--all" in sys.argv:
             commands["decode"] = ["decode", os.path.join(folder, "a.mp4"), "-o", fap]
-            commands["view"] = ["view", os.path.join(folder, "a.mp4"), "-o", os.path.join(folder, "a.html")]
+            commands["view"] = ["view", os.path.join(folder, "a.mp4"), "-o",
+                os.path.join(folder, "a.html")]
         for name, arguments in commands.items():
             if not check(name, arguments, 0):
                 print(f"{name}: left out, as it does not work here")

@@ -1,8 +1,9 @@
 """Hostile peers of `receive` and `serve`.  net.py PROGRAM [--seconds N] [--seed S]
 
-RTP: the packets of a real sender, again and again, mutated, with timestamps that run ahead of time in small steps. The
-receiver writes no more than time allows, stays small, and ends when it is told to. HTTP: requests that are cut, mutated,
-too long or slow. The server still answers its next client, and ends when it is told to."""
+RTP: the packets of a real sender, again and again, mutated, with timestamps that run ahead of time
+in small steps. The receiver writes no more than time allows, stays small, and ends when it is told
+to. HTTP: requests that are cut, mutated, too long or slow. The server still answers its next
+client, and ends when it is told to."""
 
 import argparse
 import os
@@ -38,12 +39,14 @@ def packets_of(program, folder):
     clip, sdp = os.path.join(folder, "a.fba"), os.path.join(folder, "a.sdp")
     with open(os.path.join(folder, "s.tsv"), "w") as out:
         out.write("0 0.5 SIL\n0.5 0.8 B\n0.8 2.8 AA\n2.8 4.0 M\n")
-    subprocess.run([program, "speak", "--script", out.name, "-o", clip], check=True, capture_output=True)
+    subprocess.run([program, "speak", "--script", out.name, "-o", clip], check=True,
+        capture_output=True)
     heard = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
     port = free_port()
     heard.bind(("127.0.0.1", port))
     heard.settimeout(1)
-    subprocess.run([program, "stream", clip, "--to", f"rtp://127.0.0.1:{port}", "--sdp", sdp, "--fast", "--intra-seconds",
+    subprocess.run([program, "stream", clip, "--to", f"rtp://127.0.0.1:{port}", "--sdp", sdp,
+        "--fast", "--intra-seconds",
                     "0.2"], check=True, capture_output=True, timeout=PATIENCE)
     packets = []
     try:
@@ -60,10 +63,12 @@ def attack_receiver(program, seconds, rng, mutate):
     with tempfile.TemporaryDirectory(prefix="net-") as folder:
         description, packets, port = packets_of(program, folder)
         assert packets, "nothing was sent"
-        rate = next(int(line.split("/")[1]) for line in description.splitlines() if line.startswith("a=rtpmap:"))
+        rate = next(int(line.split("/")[1]) for line in description.splitlines()
+            if line.startswith("a=rtpmap:"))
         sdp = os.path.join(folder, "a.sdp")
         text = os.path.join(folder, "out.fap")
-        receiver = subprocess.Popen([program, "receive", sdp, "-o", text, "--wait", "30", "--timeout", "0"],
+        receiver = subprocess.Popen([program, "receive", sdp, "-o", text, "--wait", "30",
+            "--timeout", "0"],
                                     stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
         time.sleep(1)
         sender = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
@@ -72,7 +77,8 @@ def attack_receiver(program, seconds, rng, mutate):
         while time.monotonic() - begun < seconds and receiver.poll() is None:
             packet = bytearray(packets[number % len(packets)])
             step = int(0.24 * rate) * number
-            packet[2:8] = struct.pack(">HI", (first[0] + number) & 0xFFFF, (first[1] + step) & 0xFFFFFFFF)
+            packet[2:8] = struct.pack(">HI", (first[0] + number) & 0xFFFF,
+                (first[1] + step) & 0xFFFFFFFF)
             if mutate and rng.random() < 0.3:
                 packet[rng.randrange(len(packet))] = rng.randrange(256)
             sender.sendto(packet, ("127.0.0.1", port))
@@ -81,7 +87,8 @@ def attack_receiver(program, seconds, rng, mutate):
                 time.sleep(0.02)
         took = time.monotonic() - begun
         if receiver.poll() is not None:
-            raise SystemExit(f"receive: exit code {receiver.returncode}: {receiver.stderr.read()[-300:]}")
+            raise SystemExit(
+                f"receive: exit code {receiver.returncode}: {receiver.stderr.read()[-300:]}")
         size = megabytes(receiver)
         end(receiver, (0, 1, 3, 130), "receive")
         frames = 0
@@ -100,7 +107,8 @@ def attack_receiver(program, seconds, rng, mutate):
 
 def attack_server(program, seconds, rng):
     port = free_port(socket.SOCK_STREAM)
-    server = subprocess.Popen([program, "serve", "--listen", f"http://127.0.0.1:{port}", "--max-heads", "5", "--drain", "1"],
+    server = subprocess.Popen([program, "serve", "--listen", f"http://127.0.0.1:{port}",
+        "--max-heads", "5", "--drain", "1"],
                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
 
     def ask(data, wait=5.0):
@@ -141,7 +149,8 @@ def attack_server(program, seconds, rng):
         for _ in range(rng.choice((0, 1, 3, 10))):
             at = rng.randrange(len(data))
             if rng.random() < 0.3:
-                data[at:at + 2] = rng.choice((b"\0", b"\r\n", b"\r\n\r\n", b"%00", b"\xff\xff", b"../", b": "))
+                data[at:at + 2] = rng.choice((b"\0", b"\r\n", b"\r\n\r\n", b"%00", b"\xff\xff",
+                    b"../", b": "))
             else:
                 data[at] = rng.randrange(256)
         if rng.random() < 0.1:

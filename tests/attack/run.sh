@@ -3,7 +3,8 @@
 here=$(cd "$(dirname "$0")" && pwd)
 program=$(realpath "${1:-$here/../../build/release/bin/animeme}")
 failed=
-for attack in "waits.py" "memory.py --all" "files.py --number 2000" "net.py --seconds 60" "text.py"; do
+for attack in "waits.py" "memory.py --all" "files.py --number 2000" "net.py --seconds 60" \
+  "text.py"; do
   set -- $attack
   script=$1
   shift

@@ -1,7 +1,9 @@
-"""Every wait of `animeme stream`, `serve` and `receive` ends on SIGTERM.  waits.py PROGRAM [NAME ...]
+"""Every wait of `animeme stream`, `serve` and `receive` ends on SIGTERM.  waits.py PROGRAM [NAME
+...]
 
-Some cases run at a time. Each brings the program to one wait (the table in README.md), makes sure that it is still there, and ends it as a
-service manager does. It has to go within LIMIT seconds, with an exit code of its own."""
+Some cases run at a time. Each brings the program to one wait (the table in README.md), makes sure
+that it is still there, and ends it as a service manager does. It has to go within LIMIT seconds,
+with an exit code of its own."""
 
 import os
 import signal
@@ -36,7 +38,8 @@ class Case:
 
     def start(self, arguments, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=None):
         self.log = open(self.path("log"), "wb")
-        self.process = subprocess.Popen([PROGRAM, *arguments], stdin=stdin, stdout=stdout, stderr=stderr or self.log,
+        self.process = subprocess.Popen([PROGRAM, *arguments], stdin=stdin, stdout=stdout,
+            stderr=stderr or self.log,
                                         env=self.environment)
         return self.process
 
@@ -93,7 +96,8 @@ def audio_without_a_header(case):
 
 
 def audio_that_stops(case):
-    case.start(["stream", "--say-audio", "-", "--pcm", "16000", *case.rtp()], stdin=open_pipe(case, b"\0" * 16000))
+    case.start(["stream", "--say-audio", "-", "--pcm", "16000", *case.rtp()],
+        stdin=open_pipe(case, b"\0" * 16000))
 
 
 def json_without_a_line(case):
@@ -145,24 +149,28 @@ def control_client_that_does_not_read(case):
 
 def events_into_a_full_pipe(case):
     out = case.full_pipe()
-    case.start(["stream", "--say", "-", "--events", "-", *case.rtp()], stdin=open_pipe(case, b"Hello, hello.\n" * 50),
+    case.start(["stream", "--say", "-", "--events", "-", *case.rtp()],
+        stdin=open_pipe(case, b"Hello, hello.\n" * 50),
                stdout=out)
     os.close(out)
 
 
 def statistics_into_a_full_pipe(case):
     out = case.full_pipe()
-    case.start(["stream", "--say", "-", "--stats", *case.rtp()], stdin=open_pipe(case, b"Hello.\n"), stdout=out,
+    case.start(["stream", "--say", "-", "--stats", *case.rtp()], stdin=open_pipe(case, b"Hello.\n"),
+        stdout=out,
                stderr=out)
     os.close(out)
 
 
 def srt_peer_that_is_not_there(case):
-    case.start(["stream", "--say", "-", "--to", f"srt://127.0.0.1:{free_port()}"], stdin=open_pipe(case, b"Hello.\n"))
+    case.start(["stream", "--say", "-", "--to", f"srt://127.0.0.1:{free_port()}"],
+        stdin=open_pipe(case, b"Hello.\n"))
 
 
 def srt_far_away(case):
-    case.start(["stream", "--say", "-", "--to", "srt://192.0.2.1:5000"], stdin=open_pipe(case, b"Hello.\n"))
+    case.start(["stream", "--say", "-", "--to", "srt://192.0.2.1:5000"],
+        stdin=open_pipe(case, b"Hello.\n"))
 
 
 def whip_server_that_does_not_answer(case):
@@ -172,7 +180,8 @@ def whip_server_that_does_not_answer(case):
 
 def web_viewer_that_does_not_read(case):
     port = free_port(socket.SOCK_STREAM)
-    case.start(["stream", "--say", "-", "--to", f"http://127.0.0.1:{port}"], stdin=open_pipe(case, b"Hello.\n"))
+    case.start(["stream", "--say", "-", "--to", f"http://127.0.0.1:{port}"],
+        stdin=open_pipe(case, b"Hello.\n"))
     viewer(case, port, "/face")
 
 
@@ -185,7 +194,8 @@ def viewer(case, port, path):
         except OSError:
             time.sleep(0.05)
     client.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 2048)
-    client.sendall(f"GET {path} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+    client.sendall(
+        f"GET {path} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
                    "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\nSec-WebSocket-Version: 13\r\n\r\n".encode())
     case.held.append(client)
     return client
@@ -203,7 +213,8 @@ def request(port, method, path, body=b""):
         try:
             with socket.create_connection(("127.0.0.1", port), 5) as client:
                 client.sendall(f"{method} {path} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\n"
-                               f"Content-Length: {len(body)}\r\nConnection: close\r\n\r\n".encode() + body)
+                               f"Content-Length: {len(body)}\r\nConnection: close\r\n\r\n".encode()
+                               + body)
                 return client.recv(65536)
         except OSError:
             time.sleep(0.05)
@@ -225,7 +236,8 @@ def server_with_half_a_request(case):
     port = start_server(case)
     request(port, "GET", "/health")
     client = socket.create_connection(("127.0.0.1", port), 5)
-    client.sendall(b"POST /heads/anna/say HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 60000\r\n\r\nHello")
+    client.sendall(
+        b"POST /heads/anna/say HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 60000\r\n\r\nHello")
     case.held.append(client)
 
 
@@ -244,11 +256,13 @@ def server_with_a_full_pipe(case):
 
 
 def receiver_of_nobody(case):
-    case.start(["receive", f"udp://127.0.0.1:{free_port()}", "-o", case.path("a.mp4"), "--wait", "0"])
+    case.start(["receive", f"udp://127.0.0.1:{free_port()}", "-o", case.path("a.mp4"), "--wait",
+        "0"])
 
 
 def receiver_of_a_silent_server(case):
-    case.start(["receive", f"ws://127.0.0.1:{case.silent_server()}/", "-o", case.path("a.mp4"), "--wait", "0"])
+    case.start(["receive", f"ws://127.0.0.1:{case.silent_server()}/", "-o", case.path("a.mp4"),
+        "--wait", "0"])
 
 
 def receiver_of_a_missing_description(case):
@@ -256,10 +270,12 @@ def receiver_of_a_missing_description(case):
 
 
 # With an error, in time.
-MAY_END = (srt_peer_that_is_not_there, srt_far_away, whip_server_that_does_not_answer, server_without_voices)
+MAY_END = (srt_peer_that_is_not_there, srt_far_away, whip_server_that_does_not_answer,
+    server_without_voices)
 
 CASES = [one for one in list(globals().values())
-         if callable(one) and getattr(one, "__code__", None) and one.__code__.co_varnames[:1] == ("case",)
+         if callable(one) and getattr(one, "__code__", None)
+         and one.__code__.co_varnames[:1] == ("case",)
          and one.__code__.co_argcount == 1 and one.__name__ not in ("stuck",)]
 
 
@@ -295,7 +311,8 @@ def run(make):
         with open(case.path("log"), "rb") as log:
             said = log.read().decode(errors="replace").strip().splitlines()
     state = f"ended by itself, exit code {early}" if early is not None else f"exit code {code} after {took:.2f} s"
-    print(f"{make.__name__}: {problem or state}" + (f" [{said[0][:120]}]" if said and (problem or early) else ""),
+    print(f"{make.__name__}: {problem or state}" + (f" [{said[0][:120]}]" if said
+        and (problem or early) else ""),
           flush=True)
     return not problem
 

@@ -1,7 +1,7 @@
 #!/bin/sh
-# The codec by its bindings, side by side: what each weighs, and how many planes of one stream it decodes in a second of
-# the CPU (66 FAPs a plane, in pieces of 100 bytes; each for a second, three times in turns, the best). What is not built
-# has no row.
+# The codec by its bindings, side by side: what each weighs, and how many planes of one stream it
+# decodes in a second of the CPU (66 FAPs a plane, in pieces of 100 bytes; each for a second, three
+# times in turns, the best). What is not built has no row.
 #   bindings.sh BUILD_DIR [NPM_BUILD_DIR]
 set -eu
 build=$1 npm=${2:-build/npm}
@@ -74,12 +74,14 @@ weight() {
       *) cat "$file" ;;
     esac
   done >"$work/all"
-  printf '%s kB, %s kB packed' "$(($(wc -c <"$work/all") / 1000))" "$(($(gzip -9 -c "$work/all" | wc -c) / 1000))"
+  printf '%s kB, %s kB packed' "$(($(wc -c <"$work/all") / 1000))" \
+    "$(($(gzip -9 -c "$work/all" | wc -c) / 1000))"
 }
 
 echo "| decoder | planes a second | of C++ | weight |"
 echo "|---|---|---|---|"
-sort -t "$(printf '\t')" -k1,1 -k2,2nr "$work/speeds" | awk -F '\t' '!seen[$1]++' | sort -t "$(printf '\t')" -k2,2nr >"$work/best"
+sort -t "$(printf '\t')" -k1,1 -k2,2nr "$work/speeds" | awk -F '\t' '!seen[$1]++' |
+  sort -t "$(printf '\t')" -k2,2nr >"$work/best"
 cpp=$(awk -F '\t' '$1 == "C++" {print $2}' "$work/best")
 while IFS="$(printf '\t')" read -r name speed; do
   case $name in

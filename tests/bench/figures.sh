@@ -1,7 +1,9 @@
 #!/bin/sh
 # Prints the figures of the top README again, each under the command that it names.
-#   tests/bench/figures.sh [BUILD]        BUILD: build/release; ANIMEME_SHARED: a folder with data/grid_s1, for two of them
-# What is compared without a clock is tests/release/readme/figures_test.cpp; speeds are ratios within one run.
+#   tests/bench/figures.sh [BUILD]        BUILD: build/release; ANIMEME_SHARED: a folder with
+#                                         data/grid_s1, for two of them
+# What is compared without a clock is tests/release/readme/figures_test.cpp; speeds are ratios
+# within one run.
 set -eu
 here=$(cd "$(dirname "$0")/../.." && pwd)
 bin=${1:-$here/build/release}/bin
@@ -24,14 +26,16 @@ else
 fi
 
 for program in test_media bench_codec; do
-  [ -x "$bin/$program" ] || { echo "skipped: build $program (cmake --build build/release --target $program)"; continue; }
+  [ -x "$bin/$program" ] ||
+    { echo "skipped: build $program (cmake --build build/release --target $program)"; continue; }
   case $program in
     test_media)
       figure "build/release/bin/test_media --gtest_filter='*Click*'"
       "$bin/test_media" --gtest_filter='*Click*' 2>&1 | tail -1 ;;
     bench_codec)
       figure "build/release/bin/bench_codec (x_textbook: against a plain coder, in the same run)"
-      "$bin/bench_codec" --benchmark_filter='decode' 2>/dev/null | grep -E 'x_textbook|Benchmark' || true ;;
+      "$bin/bench_codec" --benchmark_filter='decode' 2>/dev/null |
+        grep -E 'x_textbook|Benchmark' || true ;;
   esac
 done
 

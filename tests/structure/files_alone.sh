@@ -40,8 +40,11 @@ if pkg-config --exists ompi; then
   mpi=none
   flags="$flags $(pkg-config --cflags-only-I ompi | sed 's/-I/-isystem /g') -DOMPI_SKIP_MPICXX"
 fi
-files=$(find fap codec dam conformance tools tests -name '*.cpp' ! -name '*_absent.cpp' ! -path '*/node_modules/*' \
-  ! -path 'tests/release/package/*' ! -path 'tools/characters/trackers/dlib/*' ! -path "$python/*" ! -path "$webrtc/*" ! -path "$mpi" | sort | awk -v every="$every" -v turn="$turn" 'NR % every == turn % every')
+files=$(find fap codec dam conformance tools tests -name '*.cpp' ! -name '*_absent.cpp' ! \
+  -path '*/node_modules/*' \
+  ! -path 'tests/release/package/*' ! -path 'tools/characters/trackers/dlib/*' ! \
+    -path "$python/*" ! -path "$webrtc/*" ! -path "$mpi" | sort |
+    awk -v every="$every" -v turn="$turn" 'NR % every == turn % every')
 echo "$(echo "$files" | wc -l) files"
 # shellcheck disable=SC2086  # lists of words are meant
 echo "$files" | xargs -P "$jobs" -n 4 "$compiler" $flags

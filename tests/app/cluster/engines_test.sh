@@ -1,7 +1,8 @@
 #!/bin/sh
-# engines_test.sh PROGRAM SOURCE make|parallel|kubernetes|schema: the batch of tools/app/cluster by this engine makes the
-# bytes of one machine, also where a row is an error. Kubernetes: the commands of its jobs, pod by pod, without it;
-# schema: its jobs by its own schema. Exit code 77: skipped, with the reason.
+# engines_test.sh PROGRAM SOURCE make|parallel|kubernetes|schema: the batch of tools/app/cluster by
+# this engine makes the bytes of one machine, also where a row is an error. Kubernetes: the commands
+# of its jobs, pod by pod, without it; schema: its jobs by its own schema. Exit code 77: skipped,
+# with the reason.
 set -u
 program=$1 source=$2 engine=$3
 tools=$source/tools/app/cluster
@@ -23,7 +24,8 @@ python=
 case $engine in
   make) command -v make >/dev/null || skip "make is missing (Debian: make)" ;;
   parallel)
-    parallel --version 2>/dev/null | grep -q 'GNU parallel' || skip "GNU parallel is missing (Debian: parallel)" ;;
+    parallel --version 2>/dev/null | grep -q 'GNU parallel' ||
+      skip "GNU parallel is missing (Debian: parallel)" ;;
   kubernetes | schema)
     for candidate in /usr/bin/python3 python3; do
       "$candidate" -c 'import yaml' 2>/dev/null && python=$candidate && break
@@ -38,7 +40,8 @@ if [ "$engine" = schema ]; then
     skip "the schema of Kubernetes is missing (npm install kubernetes-models, its node_modules in NODE_PATH)"
   for file in "$tools"/kubernetes_*.yaml; do
     job --json "$file" >job.json
-    node "$source/tests/app/cluster/kubernetes_schema.js" job.json || fail "$file is not as the schema wants it"
+    node "$source/tests/app/cluster/kubernetes_schema.js" job.json ||
+      fail "$file is not as the schema wants it"
   done
   exit 0
 fi
@@ -53,9 +56,11 @@ export ANIMEME="$program"
 shards=3 status=0
 case $engine in
   make)
-    make -f "$tools/Makefile" -k -j2 SHARDS=3 OPTIONS='--set outputs=.fba' >engine.log 2>&1 || status=$? ;;
+    make -f "$tools/Makefile" -k -j2 SHARDS=3 OPTIONS='--set outputs=.fba' >engine.log 2>&1 ||
+      status=$? ;;
   parallel)
-    PARALLEL='--will-cite --jobs 2' sh "$tools/parallel_batch.sh" 3 clips.tsv out --set outputs=.fba >engine.log 2>&1 ||
+    PARALLEL='--will-cite --jobs 2' sh "$tools/parallel_batch.sh" 3 clips.tsv out \
+      --set outputs=.fba >engine.log 2>&1 ||
       status=$? ;;
   kubernetes)
     mkdir bin

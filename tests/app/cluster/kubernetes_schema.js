@@ -1,4 +1,5 @@
-// kubernetes_schema.js JOB.json: a Job of batch/v1 by the schema of Kubernetes, which kubernetes-models carries.
+// kubernetes_schema.js JOB.json: a Job of batch/v1 by the schema of Kubernetes, which
+// kubernetes-models carries.
 const {readFileSync} = require('fs');
 const {Job} = require('kubernetes-models/batch/v1');
 

@@ -1,6 +1,7 @@
 #!/bin/sh
-# mpi_test.sh PROGRAM SOURCE: train --mpi makes the bytes of one process by any number of them, and an error of one
-# is the end of all, by its message and exit code. Exit code 77: skipped, with the reason.
+# mpi_test.sh PROGRAM SOURCE: train --mpi makes the bytes of one process by any number of them, and
+# an error of one is the end of all, by its message and exit code. Exit code 77: skipped, with the
+# reason.
 set -u
 program=$1 source=$2
 skip() {
@@ -29,7 +30,8 @@ train() {
 
 # shellcheck disable=SC2086
 "$program" train corpus --accumulate one.stats ${options%--ridge*} --controls 3-13 >one.log 2>&1 &&
-  "$program" train --merge one.stats --ridge-factor 1 -o one.dam >>one.log 2>&1 || fail "one process by files"
+  "$program" train --merge one.stats --ridge-factor 1 -o one.dam >>one.log 2>&1 ||
+    fail "one process by files"
 for count in 1 2 3; do
   train $count || fail "$count processes"
   cmp one.dam $count.dam || fail "$count processes make another model"
@@ -37,10 +39,12 @@ done
 
 for part in 1/2 2/2; do
   # shellcheck disable=SC2086
-  "$program" train corpus --accumulate "part_${part%/2}.stats" --shard $part ${options%--ridge*} --controls 3-13 \
+  "$program" train corpus --accumulate "part_${part%/2}.stats" --shard $part ${options%--ridge*} \
+    --controls 3-13 \
     >parts.log 2>&1 || fail "shard $part"
 done
-"$program" train --merge part_2.stats part_1.stats --ridge-factor 1 -o parts.dam >>parts.log 2>&1 || fail "shards"
+"$program" train --merge part_2.stats part_1.stats --ridge-factor 1 \
+  -o parts.dam >>parts.log 2>&1 || fail "shards"
 cmp one.dam parts.dam || fail "shards make another model"
 
 # A sentence that cannot be read.

@@ -1,4 +1,5 @@
-"""Reads messages as receivers of others do, by Python's struct and json: read_carriers.py FOLDER; prints JSON."""
+"""Reads messages as receivers of others do, by Python's struct and json: read_carriers.py FOLDER;
+prints JSON."""
 import json
 import struct
 import sys

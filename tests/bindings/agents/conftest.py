@@ -18,7 +18,8 @@ class RoomSound(io.AudioOutput):
     """The output of a room: keeps what it is given and has played as much of it as a test says."""
 
     def __init__(self, sample_rate):
-        super().__init__(label="room", capabilities=io.AudioOutputCapabilities(pause=True), sample_rate=sample_rate)
+        super().__init__(label="room", capabilities=io.AudioOutputCapabilities(pause=True),
+            sample_rate=sample_rate)
         self.given = self.played = 0  # samples of the segment
         self.all_given = 0
         self.over = False
@@ -53,7 +54,8 @@ class RoomSound(io.AudioOutput):
 
 
 class UnitDecoder:
-    """Units to values as the npm package does it: each is given the start code of the next at once."""
+    """Units to values as the npm package does it: each is given the start code of the next at
+    once."""
 
     START = bytes([0, 0, 1, 0xBB])
 

@@ -1,12 +1,13 @@
-// page_test.mjs FILE PACKAGE: what a page makes of the messages in FILE, one JSON a line: [topic, base64]; by the npm
-// package, if it is built, else by a decoder that remembers bytes.
+// page_test.mjs FILE PACKAGE: what a page makes of the messages in FILE, one JSON a line: [topic,
+// base64]; by the npm package, if it is built, else by a decoder that remembers bytes.
 import assert from 'node:assert';
 import {existsSync, readFileSync} from 'node:fs';
 import {FaceReceiver} from '../../../tools/bindings/agents/face_receiver.js';
 
 const [file, folder] = process.argv.slice(2);
 let kit = await import('../../../tools/bindings/npm/src/track.js');
-let decoder = () => ({decode: ({time, intra, bytes}) => [{time, intra, bytes, rate: [25, 1]}], skip() {}});
+let decoder = () => ({decode: ({time, intra, bytes}) => [{time, intra, bytes, rate: [25, 1]}],
+    skip() {}});
 const built = existsSync(`${folder}/wasm/decoder.wasm`);
 if (built) {
   kit = await import(`${folder}/src/node.js`);
@@ -15,7 +16,8 @@ if (built) {
 }
 
 let wall = 100;
-const face = new FaceReceiver({decoder, track: new kit.Track(), delay: () => 0.05, wall: () => wall});
+const face = new FaceReceiver({decoder, track: new kit.Track(), delay: () => 0.05,
+    wall: () => wall});
 assert.equal(face.now(), null);
 const messages = readFileSync(file, 'utf8').trim().split('\n').map((line) => {
   const [topic, base64] = JSON.parse(line);
@@ -46,7 +48,8 @@ for (const {topic, bytes, told} of messages) {
 }
 assert.ok(begun >= 2 && cuts >= 1 && units > 50 && replaced > 0);
 wall += 1000;
-assert.ok(face.now().time < late.told.playing / 22050 && face.now() !== face.track.frames.at(-1), 'it waits for its sound');
+assert.ok(face.now().time < late.told.playing / 22050 && face.now() !== face.track.frames.at(-1),
+    'it waits for its sound');
 face.take(late.topic, late.bytes);
 wall += 0.05;
 // Where a segment is 0.4 s old, its eleventh face is shown; long after the last one, that one.
@@ -55,4 +58,5 @@ assert.ok(Math.abs(face.now().time - (face.anchor.time + 0.4)) < 1e-3);
 wall += 1000;
 assert.equal(face.now(), face.track.frames.at(-1));
 if (built) assert.ok(face.now().values.every((value) => value === 0), 'closed');
-console.log(`${units} units, ${replaced} replaced, by ${built ? 'the npm package' : 'a decoder that decodes nothing'}`);
+console.log(
+    `${units} units, ${replaced} replaced, by ${built ? 'the npm package' : 'a decoder that decodes nothing'}`);

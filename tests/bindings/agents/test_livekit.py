@@ -1,4 +1,5 @@
-"""FaceOutput in front of a room's output, by a stand-in for LiveKit: ten minutes of speech with interruptions, a slow
+"""FaceOutput in front of a room's output, by a stand-in for LiveKit: ten minutes of speech with
+interruptions, a slow
 network, one that breaks, and what must not stop the sound."""
 import asyncio
 import json
@@ -16,7 +17,8 @@ CLOSING = 5
 
 
 class Page:
-    """What a page does with the messages: a line of faces, in which a unit replaces what was sent for later."""
+    """What a page does with the messages: a line of faces, in which a unit replaces what was sent
+    for later."""
 
     def __init__(self):
         self.decoder = UnitDecoder()
@@ -28,8 +30,10 @@ class Page:
     def take(self, topic, message):
         if topic == CLOCK_TOPIC:
             told = json.loads(message)
-            if "begins" in told and (not self.segments or self.segments[-1]["number"] != told["segment"]):
-                self.segments.append({"number": told["segment"], "begins": told["begins"], "times": [], "cut": None})
+            if "begins" in told and (not self.segments
+                or self.segments[-1]["number"] != told["segment"]):
+                self.segments.append({"number": told["segment"], "begins": told["begins"],
+                    "times": [], "cut": None})
             if "cut" in told:
                 assert told["segment"] == self.segments[-1]["number"]
                 self.segments[-1]["cut"] = (told["cut"], len(self.segments[-1]["times"]))
@@ -111,7 +115,8 @@ def test_ten_minutes_with_interruptions(voice):
 
     room, said, in_haste = asyncio.run(talk())
     page, expected, at, unseen = Page(), 0, 0, 0
-    assert sum(heard is not None for _, heard, _ in said) > 30 < sum(heard is None for _, heard, _ in said)
+    assert sum(heard is not None for _, heard, _ in said) > 30 < sum(heard is None for _, heard,
+        _ in said)
     for number, (size, heard, to) in enumerate(said):
         if at == to:  # interrupted before the face had heard of it
             assert heard is not None
@@ -121,7 +126,8 @@ def test_ten_minutes_with_interruptions(voice):
             page.take(topic, message)
         at, segment = to, page.segments[-1]
         times = segment["times"]
-        assert segment["begins"] == expected and segment["number"] == number - unseen == len(page.segments) - 1
+        assert segment["begins"] == expected and segment["number"] == number - unseen == len(
+            page.segments) - 1
         if heard is None:
             assert segment["cut"] is None
             assert len(times) - CLOSING in (-(-size // A_FRAME), size // A_FRAME + 1)
@@ -172,7 +178,8 @@ def test_a_slow_network_holds_the_voice_back_and_nothing_is_lost(voice):
 
     page = shown_of(asyncio.run(talk()))
     assert page.segments[1]["cut"][1] <= 1  # what waited to be sent is not sent any more
-    assert len(page.segments[0]["times"]) - CLOSING in (-(-len(samples) // A_FRAME), -(-len(samples) // A_FRAME) + 1)
+    assert len(page.segments[0]["times"]) - CLOSING in (-(-len(samples) // A_FRAME),
+        -(-len(samples) // A_FRAME) + 1)
     assert page.missed == 0
 
 
@@ -195,7 +202,8 @@ def test_a_network_that_breaks_goes_on_where_decoding_can_begin(voice):
         return room
 
     room = asyncio.run(talk())
-    units = [message for topic, message in room.local_participant.published if topic == TOPIC and message[0] != 0x41]
+    units = [message for topic, message in room.local_participant.published if topic == TOPIC
+        and message[0] != 0x41]
     flags = [message[12] for message in units]
     assert flags.count(3) == 1 and 2 not in flags
     times = [struct.unpack_from(">Q", message)[0] for message in units]
@@ -247,8 +255,10 @@ def test_an_output_that_does_not_tell_what_was_heard(voice):
     first, second, third = page.segments
     for segment, following in [(first, second), (second, third)]:
         cut, before = segment["cut"]  # where the next one began, from the last face that was sent
-        assert segment["times"] == [segment["begins"] + A_FRAME * i for i in range(before + CLOSING)]
-        assert cut == segment["times"][before] and following["begins"] == segment["times"][-1] + A_FRAME
+        assert segment["times"] == [segment["begins"] + A_FRAME * i for i
+            in range(before + CLOSING)]
+        assert cut == segment["times"][before] and following["begins"] == segment["times"][
+            -1] + A_FRAME
     assert third["cut"] is None and len(third["times"]) > 10
 
 
@@ -269,7 +279,8 @@ def test_those_who_join_are_greeted_and_pages_are_told_the_clock(voice):
         await say(face, samples, rate, random.Random(1))
         await face.drained()
         await face.aclose()
-        return [json.loads(message) for topic, message in room.local_participant.published if topic == CLOCK_TOPIC]
+        return [json.loads(message) for topic, message in room.local_participant.published
+            if topic == CLOCK_TOPIC]
 
     clocks = asyncio.run(talk())
     begins = [clock["begins"] for clock in clocks if "begins" in clock]
@@ -291,7 +302,8 @@ def test_who_joins_in_the_middle_of_an_utterance_sees_it(voice):
         face.flush()
         sound.play()
         await face.drained()
-        await say(face, samples, rate, random.Random(1))  # all of it is there long before it is heard
+        # all of it is there long before it is heard
+        await say(face, samples, rate, random.Random(1))
         face.flush()
         await face.drained()
         await asyncio.sleep(0.6)
@@ -312,9 +324,11 @@ def test_who_joins_in_the_middle_of_an_utterance_sees_it(voice):
     assert page.hellos == 1 and len(page.segments) == 1
     begins = page.segments[0]["begins"]
     assert begins == everybody.segments[1]["begins"] > 0
-    playing, = [json.loads(m)["playing"] for t, m in got if t == CLOCK_TOPIC and "playing" in json.loads(m)]
+    playing, = [json.loads(m)["playing"] for t, m in got if t == CLOCK_TOPIC and "playing"
+        in json.loads(m)]
     assert 0.5 * rate < playing - begins < 60 * rate
-    # It begins at, or before, what is heard, less than an intra plane ago, and has all that is still to come.
+    # It begins at, or before, what is heard, less than an intra plane ago, and has all that is
+    # still to come.
     times = page.segments[0]["times"]
     assert times and times[-1] == everybody.segments[1]["times"][-1]
     assert times[0] <= max(playing, begins) and (times[0] > begins or playing - begins < 0.5 * rate)

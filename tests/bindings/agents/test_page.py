@@ -34,9 +34,11 @@ def test_a_page_shows_what_is_heard(voice, tmp_path):
         await face.aclose()
         return room.local_participant.published
 
-    lines = [json.dumps([topic, base64.b64encode(message).decode()]) for topic, message in asyncio.run(talk())]
+    lines = [json.dumps([topic, base64.b64encode(message).decode()]) for topic,
+        message in asyncio.run(talk())]
     (tmp_path / "messages").write_text("\n".join(lines))
     done = subprocess.run(["node", Path(__file__).parent / "page_test.mjs", tmp_path / "messages",
-                           SOURCE / "build/npm/tools/bindings/npm/package"], capture_output=True, text=True)
+                           SOURCE / "build/npm/tools/bindings/npm/package"], capture_output=True,
+                           text=True)
     assert done.returncode == 0, done.stderr
     print(done.stdout)

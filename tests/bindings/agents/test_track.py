@@ -20,10 +20,12 @@ def test_hello_is_that_of_the_web_server():
     hello = FaceTrack(24000).hello()
     letter, version, profile, sound, ticks, size = struct.unpack_from(">BBBBIH", hello)
     assert (letter, version, sound, ticks) == (0x41, 1, 0, 24000) and 0x61 <= profile <= 0x64
-    assert size == len(hello) - 10 and hello[10:].startswith(bytes([0, 0, 1, 0xB0, profile, 0, 0, 1, 0xB5]))
+    assert size == len(hello) - 10 and hello[10:].startswith(bytes([0, 0, 1, 0xB0, profile, 0, 0, 1,
+        0xB5]))
 
 
-@pytest.mark.parametrize("rate, sample_rate", [(25, 22050), ("30000/1001", 22050), (30, 44100), (60, 16000)])
+@pytest.mark.parametrize("rate, sample_rate", [(25, 22050), ("30000/1001", 22050), (30, 44100),
+    (60, 16000)])
 def test_times_are_those_of_samples(voice, rate, sample_rate):
     samples, _ = voice
     track = FaceTrack(sample_rate, rate=Fraction(rate))
@@ -38,7 +40,8 @@ def test_times_are_those_of_samples(voice, rate, sample_rate):
     heard = int(len(samples) / a_frame)
     assert heard <= len(units) - max(1, round(0.2 * Fraction(rate))) <= heard + 1
     again = track.push(samples)
-    assert again[0].time == int(len(units) * a_frame) == track.begins and again[0].intra and track.segment == 1
+    assert again[0].time == int(len(units) * a_frame) == track.begins and again[
+        0].intra and track.segment == 1
 
 
 def test_the_face_is_that_of_the_voice_however_it_is_cut(voice):
@@ -60,9 +63,11 @@ def test_the_face_is_that_of_the_voice_however_it_is_cut(voice):
 def test_phones_take_the_place_of_sound(voice):
     _, rate = voice
     model = animeme.builtin_model()
-    phones = [(0, 4410, "SIL"), (4410, 6615, "P"), (6615, 11025, "AA"), (11025, 13230, "M"), (13230, 17640, "IY")]
+    phones = [(0, 4410, "SIL"), (4410, 6615, "P"), (6615, 11025, "AA"), (11025, 13230, "M"),
+        (13230, 17640, "IY")]
     stream = animeme.SpeechStream(model)
-    rows = np.concatenate([*(stream.push(a / rate, b / rate, phone) for a, b, phone in phones), stream.finish()])
+    rows = np.concatenate([*(stream.push(a / rate, b / rate, phone) for a, b, phone in phones),
+        stream.finish()])
     columns = [int(name[3:].split("_")[0]) - 1 for name in model.controls]
     track = FaceTrack(rate, quant=0)
     for _ in range(2):  # the second like the first
@@ -70,7 +75,8 @@ def test_phones_take_the_place_of_sound(voice):
         decoder = UnitDecoder()
         faces = np.array([decoder.decode(parsed(unit)[2]).values for unit in units])
         assert (faces[:len(rows), columns] == np.round(rows)).all() and not faces[-1].any()
-        assert [unit.time for unit in units] == [track.begins + 882 * i for i in range(len(rows) + 5)]
+        assert [unit.time for unit in units] == [track.begins + 882 * i for i
+            in range(len(rows) + 5)]
     track.say(*phones[0])
     assert [unit.time for unit in track.cut(1000)] == [track.begins + 882 * i for i in range(2, 7)]
 
@@ -106,4 +112,5 @@ def test_a_cut_of_what_was_not_heard_of_yet(voice):
 def test_lost_units_are_told():
     track = FaceTrack(16000)
     units = track.push(np.zeros(16000, np.int16))
-    assert mark_missed(units[0].message)[12] == 3 and mark_missed(units[0].message)[13:] == units[0].message[13:]
+    assert mark_missed(units[0].message)[12] == 3 and mark_missed(units[0].message)[13:] == units[
+        0].message[13:]

@@ -1,6 +1,8 @@
-"""Onto heads of our own, read by Blender's own importer of glTF: bones beside shapes, and the head that is made.
+"""Onto heads of our own, read by Blender's own importer of glTF: bones beside shapes, and the head
+that is made.
 
-The files have an animation of the program's own, which is looked at before the add-on's takes its place.
+The files have an animation of the program's own, which is looked at before the add-on's takes its
+place.
 """
 
 import math
@@ -14,7 +16,8 @@ BONES = ("neck_bone", "jaw_bone", "left_eye_bone", "right_eye_bone")
 
 
 def read_glb(clip, *options):
-    """Objects of a head that shows a clip, by the names of its parts; the scene has nothing else."""
+    """Objects of a head that shows a clip, by the names of its parts; the scene has nothing
+    else."""
     animeme("export", clip, *options, "-o", place("head.glb"))
     clean()
     bpy.context.scene.render.fps = 25
@@ -62,10 +65,12 @@ def shapes_and_bones_are_those_of_our_own_animation():
     table = told(place("talk.fba"))
     seen = 0
     for item in parts.values():
-        for key in item.data.shape_keys.key_blocks[1:] if item.type == "MESH" and item.data.shape_keys else []:
+        for key in item.data.shape_keys.key_blocks[
+            1:] if item.type == "MESH" and item.data.shape_keys else []:
             seen += 1
             for frame in range(FRAMES):
-                near(key_curve(item, key.name).evaluate(frame), table[key.name.lower()][frame], key.name)
+                near(key_curve(item, key.name).evaluate(frame), table[key.name.lower()][frame],
+                    key.name)
     assert seen > 80, seen
     made = poses(parts["Armature"], FRAMES)
     for bone in ("neck_bone", "left_eye_bone", "right_eye_bone"):
@@ -80,14 +85,16 @@ def shapes_and_bones_are_those_of_our_own_animation():
 def only_what_is_wanted_turns(parts):
     armature = parts["Armature"]
     for options, turned in (({}, set(BONES)), ({"head": "NONE"}, set(BONES) - {"neck_bone"}),
-                            ({"head": "HEAD", "use_jaw": False}, {"left_eye_bone", "right_eye_bone"}),
+                            ({"head": "HEAD", "use_jaw": False},
+                            {"left_eye_bone", "right_eye_bone"}),
                             ({"head": "NECK", "eyes": "SHAPES", "use_jaw": False}, {"neck_bone"}),
                             ({"eyes": "NONE"}, {"neck_bone", "jaw_bone"})):
         select(armature)
         load(place("talk.fba"), **options)
         assert paths(armature) == turned, (options, paths(armature))
         curves = parts["skin"].data.shape_keys.animation_data.action.fcurves
-        assert any("eyeLook" in made.data_path for made in curves) == (options.get("eyes") != "NONE"), options
+        assert any("eyeLook" in made.data_path for made
+            in curves) == (options.get("eyes") != "NONE"), options
     # Other modes of bones.
     load(place("talk.fba"))
     wanted = poses(armature, FRAMES)["neck_bone"]
@@ -103,7 +110,8 @@ def an_eye_with_shapes_is_not_turned_twice(parts):
     eye.shape_key_add(name="Basis")
     eye.shape_key_add(name="eyeLookInLeft")
     load(place("talk.fba"))
-    assert "left_eye_bone" not in paths(parts["Armature"]) and "right_eye_bone" in paths(parts["Armature"])
+    assert "left_eye_bone" not in paths(parts["Armature"]) and "right_eye_bone" in paths(
+        parts["Armature"])
     assert key_curve(eye, "eyeLookInLeft")
     load(place("talk.fba"), eyes="BONES")
     assert "left_eye_bone" in paths(parts["Armature"])
@@ -139,7 +147,8 @@ def fap_keys_are_those_of_our_own_animation():
     for old in before.fcurves:
         moving += len(old.keyframe_points) == FRAMES
         for frame in range(FRAMES):
-            near(curve(data, old.data_path).evaluate(frame), old.evaluate(frame), f"{old.data_path} {frame}", 4e-6)
+            near(curve(data, old.data_path).evaluate(frame), old.evaluate(frame),
+                f"{old.data_path} {frame}", 4e-6)
     assert moving > 20, moving
     # Of FAP 3 alone, whose skin is a small part of the chin.
     made = poses(parts["Armature"], FRAMES)["jaw_bone"]
@@ -153,10 +162,12 @@ def a_head_is_made_where_none_is_selected():
     meshes = [item for item in bpy.data.objects if item.type == "MESH"]
     assert len(meshes) > 8
     table = told(place("talk.fba"))["jawopen"]
-    skin = next(item for item in meshes if item.data.shape_keys and len(item.data.shape_keys.key_blocks) > 45)
+    skin = next(item for item in meshes if item.data.shape_keys
+        and len(item.data.shape_keys.key_blocks) > 45)
     for frame in range(FRAMES):
         near(key_curve(skin, "jawOpen").evaluate(1 + frame), table[frame], "jawOpen")
-    assert all(action.name.startswith("talk ") for action in bpy.data.actions), list(bpy.data.actions)
+    assert all(action.name.startswith("talk ") for action
+        in bpy.data.actions), list(bpy.data.actions)
 
 
 run(shapes_and_bones_are_those_of_our_own_animation, the_jaw_bone_follows_the_shape_of_the_jaw,

@@ -70,7 +70,8 @@ def undone():
     assert len(bpy.data.actions) == 1 and len(strips()) == 1 and bpy.context.scene.render.fps == 25
     bpy.ops.ed.undo()
     item = bpy.data.objects["face"]
-    assert len(bpy.data.actions) == 0 and not strips() and item.data.shape_keys.animation_data is None
+    assert len(bpy.data.actions) == 0 and not strips(
+        ) and item.data.shape_keys.animation_data is None
     assert bpy.context.scene.frame_end == 3 and bpy.context.scene.render.fps == 24
     bpy.ops.ed.redo()
     assert len(bpy.data.actions) == 1 and len(strips()) == 1
@@ -80,7 +81,8 @@ def names_of_all_kinds():
     clean()
     item = mesh_with(['jaw"Open', "jawOpen", "mouth\\Pucker"])
     bpy.context.scene.render.fps = 25
-    with open(place("talk.fba"), "rb") as file, open(place("Grüße 'n \"so\" 100%.fba"), "wb") as out:
+    with open(place("talk.fba"), "rb") as file, open(place("Grüße 'n \"so\" 100%.fba"),
+        "wb") as out:
         out.write(file.read())
     load(place("Grüße 'n \"so\" 100%.fba"))
     action = bpy.data.actions[0]
@@ -106,4 +108,5 @@ def off_and_on_again():
     load(place("talk.fba"))
 
 
-run(files_that_are_no_face, nobody_to_move, no_program, undone, names_of_all_kinds, off_and_on_again)
+run(files_that_are_no_face, nobody_to_move, no_program, undone, names_of_all_kinds,
+    off_and_on_again)

@@ -51,7 +51,8 @@ def every_value_is_the_texts():
         for fap, name in enumerate(names(), 3):
             made = key_curve(item, name)
             for frame in range(FRAMES):
-                near(made.evaluate(1 + frame), values[fap][frame] / 1024, f"{clip} {name} {frame}", 4e-5)
+                near(made.evaluate(1 + frame), values[fap][frame] / 1024, f"{clip} {name} {frame}",
+                    4e-5)
         # Beyond 0 and 1 a key would stop at the ends of its slider.
         key = item.data.shape_keys.key_blocks["raise_b_midlip"]
         lowest = min(range(FRAMES), key=lambda frame: values[5][frame])
@@ -88,4 +89,5 @@ def frames_that_are_skipped_are_held():
         near(key_curve(item, "jawOpen").evaluate(1 + frame), shapes[frame], f"shape {frame}")
 
 
-run(the_table_is_the_standards, every_value_is_the_texts, other_scales, frames_that_are_skipped_are_held)
+run(the_table_is_the_standards, every_value_is_the_texts, other_scales,
+    frames_that_are_skipped_are_held)

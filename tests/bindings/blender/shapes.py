@@ -47,14 +47,16 @@ def every_value_is_the_programs():
 
 def spellings():
     clean()
-    names = ["JawOpen", "Wolf3D.eyeBlink_L", "blendShape1.mouthPucker", "ARKit_mouthFunnel", "browInnerUp_R", "Blink",
+    names = ["JawOpen", "Wolf3D.eyeBlink_L", "blendShape1.mouthPucker", "ARKit_mouthFunnel",
+        "browInnerUp_R", "Blink",
              "nothing known"]
     item = mesh_with(names)
     bpy.context.scene.render.fps = 25
     load(place("talk.fba"))
     table = told(place("talk.fba"))
     for name, shape in (("JawOpen", "jawopen"), ("Wolf3D.eyeBlink_L", "eyeblinkleft"),
-                        ("blendShape1.mouthPucker", "mouthpucker"), ("ARKit_mouthFunnel", "mouthfunnel"),
+                        ("blendShape1.mouthPucker", "mouthpucker"),
+                        ("ARKit_mouthFunnel", "mouthfunnel"),
                         ("browInnerUp_R", "browinnerup")):
         for frame in range(FRAMES):
             near(key_curve(item, name).evaluate(1 + frame), table[shape][frame], name)
@@ -74,7 +76,8 @@ def visemes_where_there_is_no_jaw():
         rows = list(csv.DictReader(file))
     table = told(place("talk.fba"))
     for frame in range(FRAMES):
-        for name, viseme in (("viseme_PP", "viseme_PP"), ("viseme_aa", "viseme_aa"), ("Fcl_MTH_U", "viseme_U")):
+        for name, viseme in (("viseme_PP", "viseme_PP"), ("viseme_aa", "viseme_aa"),
+            ("Fcl_MTH_U", "viseme_U")):
             near(key_curve(item, name).evaluate(1 + frame), float(rows[frame][viseme]), name, 6e-5)
         both = (table["eyeblinkleft"][frame] + table["eyeblinkright"][frame]) / 2
         near(key_curve(item, "Fcl_EYE_Close").evaluate(1 + frame), both, "lids")
@@ -83,7 +86,8 @@ def visemes_where_there_is_no_jaw():
     clean()
     item = mesh_with(["viseme_PP", "jawOpen"])
     load(place("talk.fba"))
-    assert [made.data_path for made in bpy.data.actions[0].fcurves] == ['key_blocks["jawOpen"].value']
+    assert [made.data_path for made in bpy.data.actions[0].fcurves] == [
+        'key_blocks["jawOpen"].value']
 
 
 def the_scenes_rate():
@@ -109,7 +113,8 @@ def the_scenes_rate():
 
 
 def the_clips_rate():
-    for told_rate, wanted, fps in (("25", Fraction(25), 25), ("30", Fraction(30000, 1001), 30), ("60", 60, 60)):
+    for told_rate, wanted, fps in (("25", Fraction(25), 25), ("30", Fraction(30000, 1001), 30),
+        ("60", 60, 60)):
         clean()
         item = mesh_with(["jawOpen"])
         text = fap_text(told_rate).replace("2.1 made 30 ", "2.1 made@29.97fps 30 ")
@@ -153,7 +158,8 @@ def the_click_is_heard_where_it_belongs():
     # A second one on top goes to the next channel, one behind it beside the first.
     load(place("talk.mp4"), frame_start=12)
     load(place("talk.mp4"), frame_start=201)
-    assert [strip.channel for strip in sorted(strips(), key=lambda strip: strip.frame_start)] == [1, 2, 1]
+    assert [strip.channel for strip in sorted(strips(), key=lambda strip: strip.frame_start)] == [1,
+        2, 1]
 
 
 def heard():
@@ -172,7 +178,8 @@ def sound_of_other_files_is_cut_and_packed():
         animeme("mux", place("talk.fba"), place("voice.wav"), *more, "-o", place(name))
         load(place(name), frame_start=11, rate="SET")
         strip = strips()[0]
-        assert strip.frame_final_start == 11 and strip.sound.packed_file and not os.path.exists(strip.sound.filepath)
+        assert strip.frame_final_start == 11 and strip.sound.packed_file and not os.path.exists(
+            strip.sound.filepath)
         near(heard(), 0.5 + 10 / 25, name, 0.002)
 
 
@@ -185,11 +192,14 @@ def sound_beside_the_clip_and_by_name():
     load(place("talk.fba"))
     assert bpy.path.abspath(strips()[0].sound.filepath) == place("talk.wav")
     load(place("talk.mp4"), sound_path=place("voice.wav"))
-    assert sorted(os.path.basename(strip.sound.filepath) for strip in strips()) == ["talk.wav", "voice.wav"]
+    assert sorted(os.path.basename(strip.sound.filepath) for strip in strips()) == ["talk.wav",
+        "voice.wav"]
     load(place("talk.mp4"), use_sound=False)
     assert len(strips()) == 2
 
 
-run(clips, every_value_is_the_programs, spellings, visemes_where_there_is_no_jaw, the_scenes_rate, the_clips_rate,
-    twice_is_two_actions, the_click_is_heard_where_it_belongs, sound_of_other_files_is_cut_and_packed,
+run(clips, every_value_is_the_programs, spellings, visemes_where_there_is_no_jaw, the_scenes_rate,
+    the_clips_rate,
+    twice_is_two_actions, the_click_is_heard_where_it_belongs,
+    sound_of_other_files_is_cut_and_packed,
     sound_beside_the_clip_and_by_name)

@@ -1,4 +1,5 @@
-"""What the tests in Blender share: the add-on installed, clips made by the program, and its CSV to compare with."""
+"""What the tests in Blender share: the add-on installed, clips made by the program, and its CSV to
+compare with."""
 
 import csv
 import math
@@ -41,10 +42,12 @@ def fap_text(rate="25", first=0):
     for frame in range(FRAMES):
         text += flags + "\n" + str(first + frame)
         for fap in faps:
-            size = {3: 700, 23: 30000, 24: 30000, 25: 20000, 26: 20000, 48: 20000, 49: 30000, 50: 9000}.get(fap, 200)
+            size = {3: 700, 23: 30000, 24: 30000, 25: 20000, 26: 20000, 48: 20000, 49: 30000,
+                50: 9000}.get(fap, 200)
             swing = math.sin(frame * (0.11 + 0.007 * fap) + fap)
             # The jaw opens only; lids close now and then.
-            swing = abs(swing) if fap == 3 else 5 * max(0, swing - 0.2) if fap in (19, 20) else swing
+            swing = abs(swing) if fap == 3 else 5 * max(0, swing - 0.2) if fap in (19,
+                20) else swing
             text += f" {round(size * swing)}"
         text += "\n"
     return text
@@ -75,7 +78,8 @@ def told(path):
     animeme("export", path, "-o", out)
     with open(out, encoding="utf-8") as file:
         rows = list(csv.reader(file))
-    columns = {name.lower(): [float(row[i]) for row in rows[1:]] for i, name in enumerate(rows[0]) if i > 1}
+    columns = {name.lower(): [float(row[i]) for row in rows[1:]] for i,
+        name in enumerate(rows[0]) if i > 1}
     return columns
 
 
@@ -112,9 +116,11 @@ def select(*items):
 
 def load(path, **options):
     # Blender remembers what an operator was told last.
-    usual = dict(frame_start=1, rate="KEEP", use_sound=True, head="BOTH", eyes="AUTO", use_jaw=True, own_head="woman",
+    usual = dict(frame_start=1, rate="KEEP", use_sound=True, head="BOTH", eyes="AUTO", use_jaw=True,
+        own_head="woman",
                  fap_scale="UNITS", fap_units=1024)
-    result = bpy.ops.import_scene.animeme("EXEC_DEFAULT", True, filepath=path, **{**usual, **options})
+    result = bpy.ops.import_scene.animeme("EXEC_DEFAULT", True, filepath=path,
+        **{**usual, **options})
     assert result == {"FINISHED"}, result
 
 

@@ -1,5 +1,6 @@
 #!/bin/sh
-# animeme.h and the examples compile without a warning as C99, C11, C++11 and C++20, by all compilers that are here.
+# animeme.h and the examples compile without a warning as C99, C11, C++11 and C++20, by all
+# compilers that are here.
 #   header_test.sh SOURCE_DIR
 set -e
 work=$(mktemp -d)

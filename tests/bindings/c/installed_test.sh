@@ -1,5 +1,6 @@
 #!/bin/sh
-# Others find the installed library, by pkg-config and by CMake (in C alone), and their programs run.
+# Others find the installed library, by pkg-config and by CMake (in C alone), and their programs
+# run.
 #   installed_test.sh SOURCE_DIR BINARY_DIR CMAKE LIBDIR
 command -v pkg-config >/dev/null || { echo "SKIPPED: pkg-config is missing"; exit 77; }
 set -e
@@ -13,9 +14,11 @@ lib=$work/prefix/$4
 export PKG_CONFIG_PATH="$lib/pkgconfig" LD_LIBRARY_PATH="$lib"
 script=$1/tests/data/grid_s1_sample/phonemes/prac8p.tsv
 
-cc -std=c99 -Wall -Wextra -pedantic -Werror "$1/tools/bindings/examples/decode_to_arkit.c" -o "$work/decode" \
+cc -std=c99 -Wall -Wextra -pedantic -Werror "$1/tools/bindings/examples/decode_to_arkit.c" \
+  -o "$work/decode" \
   $(pkg-config --cflags --libs animeme)
-c++ -std=c++11 -Wall -Wextra -pedantic -Werror "$1/tools/bindings/examples/speak_to_fba.cpp" -o "$work/speak" \
+c++ -std=c++11 -Wall -Wextra -pedantic -Werror "$1/tools/bindings/examples/speak_to_fba.cpp" \
+  -o "$work/speak" \
   $(pkg-config --cflags --libs animeme)
 "$work/speak" "$script" "$work/talk.fba"
 "$work/decode" "$work/talk.fba" "$work/again.fba" >"$work/one"

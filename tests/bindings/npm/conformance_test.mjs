@@ -8,7 +8,8 @@ const [folder, cases] = process.argv.slice(2);
 const animeme = await import(`${folder}/src/node.js`);
 await animeme.ready();
 const names = readdirSync(cases).filter((name) => existsSync(`${cases}/${name}/case.json`));
-const read = (path) => existsSync(`${cases}/${path}`) ? new Uint8Array(readFileSync(`${cases}/${path}`)) : null;
+const read = (path) => existsSync(`${cases}/${path}`) ?
+    new Uint8Array(readFileSync(`${cases}/${path}`)) : null;
 const report = await checkSuite(animeme, names, read);
 console.log(`${report.cases} cases, ${report.frames} planes, ${report.values} values`);
 assert.deepEqual(report.wrong, []);

@@ -1,5 +1,6 @@
-// hostile_test.mjs SOURCE: the parts of the package that read files without WebAssembly, given cut and mutated ones,
-// wrong types, and tables that claim more than is there: an AnimemeError, soon, in little memory.
+// hostile_test.mjs SOURCE: the parts of the package that read files without WebAssembly, given cut
+// and mutated ones, wrong types, and tables that claim more than is there: an AnimemeError, soon,
+// in little memory.
 import assert from 'node:assert/strict';
 import {cpSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
@@ -35,19 +36,23 @@ const refused = (use) => {
 };
 
 const folder = join(source, 'tests/fuzz/corpus/container');
-const films = readdirSync(folder).filter((name) => name.endsWith('.mp4')).map((name) => new Uint8Array(readFileSync(join(folder, name))));
-const isFace = (bytes) => refused(() => { const reader = new Mp4Reader(); reader.push(bytes); return reader.track; });
+const films = readdirSync(folder).filter((name) => name.endsWith('.mp4')).map((name) =>
+    new Uint8Array(readFileSync(join(folder, name))));
+const isFace = (bytes) => refused(() => { const reader = new Mp4Reader(); reader.push(bytes);
+    return reader.track; });
 const faces = films.filter(isFace);
 
 // All units of a file that comes in pieces.
 function read(bytes, piece) {
   const reader = new Mp4Reader(), units = [];
-  for (let at = 0; at < bytes.length; at += piece) units.push(...reader.push(bytes.subarray(at, at + piece)));
+  for (let at = 0; at < bytes.length;
+      at += piece) units.push(...reader.push(bytes.subarray(at, at + piece)));
   reader.finish();
   return units;
 }
 
-test('there are faces among the seeds', () => assert.ok(faces.length >= 3, `${faces.length} of ${films.length}`));
+test('there are faces among the seeds', () => assert.ok(faces.length >= 3,
+    `${faces.length} of ${films.length}`));
 
 test('a cut file gives no more than the whole one, or says what is missing', () => {
   for (const bytes of faces) {
@@ -90,25 +95,32 @@ const descriptor = (tag, ...parts) => {
   const content = Buffer.concat(parts.map((part) => Buffer.from(part)));
   return Buffer.concat([Buffer.from([tag, content.length]), content]);
 };
-const esds = box('esds', words(0), descriptor(3, [0, 1, 0], descriptor(4, [0x20], Buffer.alloc(12), descriptor(5, config, [0]))));
+const esds = box('esds', words(0), descriptor(3, [0, 1, 0],
+    descriptor(4, [0x20], Buffer.alloc(12), descriptor(5, config, [0]))));
 const film = (stsz, stts, rest = []) => Buffer.concat([
   box('ftyp', Buffer.from('isom')),
-  box('moov', box('trak', box('tkhd', words(0, 0, 0, 1)), box('mdia', box('mdhd', words(0, 0, 0, 1000)),
-    box('minf', box('stbl', box('stsd', words(0, 1), box('mp4v', Buffer.alloc(78), esds)), stsz, stts,
+  box('moov', box('trak', box('tkhd', words(0, 0, 0, 1)),
+      box('mdia', box('mdhd', words(0, 0, 0, 1000)),
+    box('minf', box('stbl', box('stsd', words(0, 1), box('mp4v', Buffer.alloc(78), esds)), stsz,
+        stts,
       box('stsc', words(0, 1, 1, 0xFFFFFFFF, 1)), box('stco', words(0, 1, 0)))))), ...rest)]);
 const mvex = box('mvex', box('trex', words(0, 1, 1, 40, 1, 0)));
 const nothing = [box('stsz', words(0, 0, 0)), box('stts', words(0, 0))];
-const refusedAs = (bytes, what) => assert.throws(() => read(new Uint8Array(bytes), 1 << 20), {name: 'AnimemeError', message: what});
+const refusedAs = (bytes, what) => assert.throws(() => read(new Uint8Array(bytes), 1 << 20),
+    {name: 'AnimemeError', message: what});
 
 test('tables that claim more than is there', () => {
   assert.equal(new Mp4Reader().push(new Uint8Array(film(...nothing))).length, 0);  // it is a face
   const before = process.memoryUsage().heapUsed;
   for (const same of [1, 0, 0xFFFFFFFF]) {
-    refusedAs(film(box('stsz', words(0, same, 0xFFFFFFFF)), box('stts', words(0, 1, 0xFFFFFFFF, 1))), /too many samples/);
+    refusedAs(film(box('stsz', words(0, same, 0xFFFFFFFF)),
+        box('stts', words(0, 1, 0xFFFFFFFF, 1))), /too many samples/);
   }
-  refusedAs(film(box('stsz', words(0, 1, 9_000_000)), box('stts', words(0, 1, 9_000_000, 1))), /too many samples/);
+  refusedAs(film(box('stsz', words(0, 1, 9_000_000)), box('stts', words(0, 1, 9_000_000, 1))),
+      /too many samples/);
   const run = box('trun', words(0, 1_000_000));
-  const fragment = (size, ...runs) => box('moof', box('traf', box('tfhd', words(16, 1, size)), ...runs));
+  const fragment = (size, ...runs) => box('moof', box('traf', box('tfhd', words(16, 1, size)),
+      ...runs));
   const open = film(...nothing, [mvex]);
   refusedAs(Buffer.concat([open, fragment(0, run)]), /a fragment/);
   refusedAs(Buffer.concat([open, fragment(1, run, run)]), /a fragment/);
@@ -128,17 +140,21 @@ test('an hour of frames is added at once', () => {
 });
 
 test('wrong types', () => {
-  for (const odd of [undefined, null, 0, NaN, 'abc', [], {}, [1, 2], new ArrayBuffer(8), new DataView(new ArrayBuffer(8)), () => 0]) {
-    assert.throws(() => new Mp4Reader().push(odd), {name: 'AnimemeError', code: 'invalid_argument'});
+  for (const odd of [undefined, null, 0, NaN, 'abc', [], {}, [1, 2], new ArrayBuffer(8),
+      new DataView(new ArrayBuffer(8)), () => 0]) {
+    assert.throws(() => new Mp4Reader().push(odd), {name: 'AnimemeError',
+        code: 'invalid_argument'});
   }
   assert.deepEqual(new Mp4Reader().push(new Uint8Array(0)), []);
 });
 
 test('playlists', () => {
   const url = 'http://a.b/c.m3u8';
-  const good = '#EXTM3U\n#EXT-X-MAP:URI="init.mp4"\n#EXTINF:2.5,\n0.m4s\n#EXTINF:1,\n1.m4s\n#EXT-X-ENDLIST\n';
+  const good =
+      '#EXTM3U\n#EXT-X-MAP:URI="init.mp4"\n#EXTINF:2.5,\n0.m4s\n#EXTINF:1,\n1.m4s\n#EXT-X-ENDLIST\n';
   assert.deepEqual(readPlaylist(good, url).segments.map(({end}) => end), [2.5, 3.5]);
-  for (const bad of ['', 'x', good.replace('2.5', 'x'), good.replace('2.5', '-1'), good.replace('2.5', '1e308'),
+  for (const bad of ['', 'x', good.replace('2.5', 'x'), good.replace('2.5', '-1'),
+      good.replace('2.5', '1e308'),
                      good.replace('0.m4s', 'http://:x'), good.replace('init.mp4', 'http://[')]) {
     assert.throws(() => readPlaylist(bad, url), {name: 'AnimemeError', code: 'syntax'}, bad);
   }
@@ -146,11 +162,13 @@ test('playlists', () => {
     const letters = [...good];
     for (let left = 1 + random(6); left > 0; --left) {
       const at = random(letters.length);
-      letters[at] = random(2) ? String.fromCharCode(random(128)) : letters.slice(at, at + random(30)).join('').repeat(2);
+      letters[at] = random(2) ? String.fromCharCode(random(128)) :
+          letters.slice(at, at + random(30)).join('').repeat(2);
     }
     refused(() => readPlaylist(letters.join(''), url));
   }
-  assert.equal(readPlaylist(`#EXTM3U\n${'#EXTINF:1,\na\n'.repeat(100_000)}`, url).segments.length, 100_000);
+  assert.equal(readPlaylist(`#EXTM3U\n${'#EXTINF:1,\na\n'.repeat(100_000)}`, url).segments.length,
+      100_000);
   refused(() => readPlaylist(`#EXTM3U\n#EXT-X-MEDIA:${'A='.repeat(200_000)}`, url));
   refused(() => readPlaylist(`#EXTM3U\n#EXT-X-MEDIA:${'A'.repeat(400_000)}`, url));
 });

@@ -1,4 +1,5 @@
-// page_test.mjs PACKAGE PROGRAM SOURCE CASES: the package in headless Chromium: the conformance suite, and
+// page_test.mjs PACKAGE PROGRAM SOURCE CASES: the package in headless Chromium: the conformance
+// suite, and
 // <animeme-face> with files, playlists and live faces.
 import assert from 'node:assert/strict';
 import {execFileSync, spawn} from 'node:child_process';
@@ -20,7 +21,8 @@ function skip(why) {
   console.log(`skipped: ${why}`);
   process.exit(77);
 }
-if (!existsSync(`${modules}/three`)) skip('npm packages of tests/readers/js are missing (tools/setup.sh full)');
+if (!existsSync(`${modules}/three`)) skip(
+    'npm packages of tests/readers/js are missing (tools/setup.sh full)');
 
 const dir = mkdtempSync(join(tmpdir(), 'animeme-npm-'));
 const run = (...args) => execFileSync(program, args, {cwd: dir, stdio: ['ignore', 'pipe', 'pipe']});
@@ -29,7 +31,8 @@ await animeme.ready();
 
 const browser = await launch({flags: ['--use-angle=swiftshader', '--enable-unsafe-swiftshader',
   '--ignore-gpu-blocklist']}).catch(() => skip('chromium is missing (Debian package chromium)'));
-const server = await serve({'/animeme/': folder, '/three/': `${modules}/three`, '/axe/': `${modules}/axe-core`,
+const server = await serve({'/animeme/': folder, '/three/': `${modules}/three`,
+    '/axe/': `${modules}/axe-core`,
   '/tests/': `${source}/tests/bindings/npm`, '/cases/': cases, '/media/': dir, '/avatars/': avatars,
   '/samples/': `${source}/tools/release/samples`});
 after(async () => {
@@ -53,7 +56,8 @@ async function open() {
 }
 
 // What a page said that it should not have.
-const complaints = (page) => page.messages.filter(({type, text}) => /error|exception|warning/.test(type) &&
+const complaints = (page) => page.messages.filter(({type, text}) =>
+    /error|exception|warning/.test(type) &&
     !/GPU stall due to ReadPixels|swiftshader|GroupMarkerNotSet/i.test(text)).map(({text}) => text);
 
 // Puts a face into the page and notes every frame that it shows, with the time of its sound.
@@ -62,9 +66,11 @@ const put = (page, attributes) => page.evaluate((given) => {
   window.seen = [];
   window.events = [];
   face.addEventListener('frame', ({detail}) => window.seen.push(
-    {number: detail.number, time: detail.time, heard: face.currentTime, values: Array.from(detail.values)}));
+    {number: detail.number, time: detail.time, heard: face.currentTime,
+        values: Array.from(detail.values)}));
   for (const name of ['play', 'pause', 'ended', 'error', 'blocked', 'load', 'head', 'lost']) {
-    face.addEventListener(name, (event) => window.events.push(name + (event.message ? `: ${event.message}` : '')));
+    face.addEventListener(name,
+        (event) => window.events.push(name + (event.message ? `: ${event.message}` : '')));
   }
   for (const [name, value] of Object.entries(given)) face.setAttribute(name, value);
   document.querySelector('main').replaceChildren(face);
@@ -111,7 +117,8 @@ test('the values of the page are those of node', async () => {
 
 test('an mp4 plays on a head', async () => {
   const page = await open();
-  await put(page, {src: '/media/talk.mp4', head: '/media/head.glb', controls: '', autoplay: '', label: 'Ada'});
+  await put(page, {src: '/media/talk.mp4', head: '/media/head.glb', controls: '', autoplay: '',
+      label: 'Ada'});
   await page.evaluate('face.headLoaded.then(() => true)');
   const size = await page.evaluate('[face.canvas.clientWidth, face.canvas.clientHeight]');
   assert.deepEqual(size, [320, 400]);
@@ -123,7 +130,8 @@ test('an mp4 plays on a head', async () => {
   const look = (number) => page.evaluate(async (number) => {
     face.pause();
     face.currentTime = number / 25 + 0.01;
-    for (let i = 0; i < 200 && face.frame?.number !== number; ++i) await new Promise(requestAnimationFrame);
+    for (let i = 0; i < 200 && face.frame?.number !== number;
+        ++i) await new Promise(requestAnimationFrame);
     const skin = face.viewport.head.root.getObjectByName('skin');
     const names = animeme.arkitNames();
     const weights = Object.entries(skin.morphTargetDictionary).map(([name, index]) =>
@@ -148,12 +156,16 @@ test('an mp4 plays on a head', async () => {
   assert.ok(open_.weights.some(([weight]) => weight > 0.1));
   assert.ok(open_.filled > 20000, `${open_.filled} pixels of a head`);
   assert.notEqual(open_.sum, shut.sum);
-  if (process.env.ANIMEME_PICTURES) await page.screenshot(join(process.env.ANIMEME_PICTURES, 'face.png'));
+  if (process.env.ANIMEME_PICTURES) await page.screenshot(join(process.env.ANIMEME_PICTURES,
+      'face.png'));
 
   await page.evaluate(readFileSync(`${modules}/axe-core/axe.min.js`, 'utf8') + '; 0');
-  const violations = await page.evaluate(async () => (await axe.run('animeme-face')).violations.map(({id}) => id));
+  const violations =
+      await page.evaluate(async () => (await axe.run('animeme-face')).violations.map(({id}) => id));
   assert.deepEqual(violations, []);
-  assert.equal(await page.evaluate('face.getAttribute("role") + " " + face.getAttribute("aria-label")'), 'group Ada');
+  assert.equal(
+      await page.evaluate('face.getAttribute("role") + " " + face.getAttribute("aria-label")'),
+      'group Ada');
   assert.deepEqual(complaints(page), []);
   await page.close();
 });
@@ -176,7 +188,8 @@ test('a playlist plays by MediaSource, from the middle, too', async () => {
 test('a stream without a sound has a clock of its own, and loops', async () => {
   const page = await open();
   await put(page, {src: '/media/talk.fba', autoplay: '', loop: ''});
-  await page.wait(`seen.length > 20 && seen.some(({number}, i) => i > 0 && number < seen[i - 1].number)`);
+  await page.wait(
+      `seen.length > 20 && seen.some(({number}, i) => i > 0 && number < seen[i - 1].number)`);
   checkSeen(await page.evaluate('seen.slice(1)'));
   await page.evaluate('face.remove()');
   assert.deepEqual(complaints(page), []);
@@ -204,7 +217,8 @@ async function answered(port) {
 
 test('a live face, bytes beside values of the server', async () => {
   const port = 20000 + process.pid % 20000;
-  const send = () => spawn(program, ['stream', 'talk.mp4', '--to', `http://127.0.0.1:${port}/`, '--loop',
+  const send = () => spawn(program, ['stream', 'talk.mp4', '--to', `http://127.0.0.1:${port}/`,
+      '--loop',
     '--allow-origin', server.url.replace(/\/$/, '')], {cwd: dir, stdio: 'ignore'});
   let sender = send();
   try {
@@ -226,7 +240,8 @@ test('a live face, bytes beside values of the server', async () => {
       const wanted = byTime.get(time.toFixed(3));
       if (!wanted) continue;
       ++compared;
-      for (let fap = 3; fap <= 68; ++fap) assert.equal(values[fap - 1], wanted[fap] ?? 0, `FAP ${fap} at ${time} s`);
+      for (let fap = 3; fap <= 68; ++fap) assert.equal(values[fap - 1], wanted[fap] ?? 0,
+          `FAP ${fap} at ${time} s`);
       assert.ok(Math.abs(heard - time) < 0.2, `frame of ${time} s at ${heard} s`);
     }
     assert.ok(compared > 20, `${compared} frames were compared`);
@@ -252,7 +267,8 @@ test('a live face, bytes beside values of the server', async () => {
     sender = send();
     await page.evaluate('seen.length = 0');
     await page.wait('seen.length > 20');
-    for (const {time, heard} of (await page.evaluate('seen')).slice(5)) assert.ok(Math.abs(heard - time) < 0.2);
+    for (const {time, heard} of (await page.evaluate('seen')).slice(5)) assert.ok(
+        Math.abs(heard - time) < 0.2);
     await page.close();
   } finally {
     sender.kill();
@@ -262,14 +278,16 @@ test('a live face, bytes beside values of the server', async () => {
 test('what a live head says is told when it is heard', async () => {
   const port = 20000 + (process.pid + 1) % 20000;
   const sender = spawn(program, ['stream', '--say', '-', '--to', `http://127.0.0.1:${port}/`,
-    '--allow-origin', server.url.replace(/\/$/, '')], {cwd: dir, stdio: ['pipe', 'ignore', 'ignore']});
+    '--allow-origin', server.url.replace(/\/$/, '')], {cwd: dir,
+        stdio: ['pipe', 'ignore', 'ignore']});
   try {
     const page = await open();
     await answered(port);
     await put(page, {src: `http://127.0.0.1:${port}/`, live: ''});
     await page.evaluate(() => {
       window.told = [];
-      face.addEventListener('speech', ({detail}) => told.push({...detail, heard: face.currentTime}));
+      face.addEventListener('speech',
+          ({detail}) => told.push({...detail, heard: face.currentTime}));
     });
     await page.wait('seen.length > 20');
     sender.stdin.write('Hello my friend\n');
@@ -278,7 +296,8 @@ test('what a live head says is told when it is heard', async () => {
     assert.deepEqual(told.filter(({event}) => event === 'word').map(({word}) => word.toLowerCase()),
         ['hello', 'my', 'friend']);
     assert.deepEqual(told.filter(({line}) => line).map(({event}) => event)
-        .filter((event, i, all) => event !== 'phone' && event !== 'word' || all[i - 1] === undefined),
+        .filter((event, i, all) => event !== 'phone' && event !== 'word' ||
+            all[i - 1] === undefined),
     ['queued', 'started', 'done']);
     for (const {event, time, heard} of told) {
       if (event === 'queued') continue;  // told at once
@@ -300,18 +319,21 @@ test('a head that meshopt has compressed', async () => {
     face.currentTime = 0.5;
     for (let i = 0; i < 5; ++i) await new Promise(requestAnimationFrame);
     const {head} = face.viewport;
-    return {most: Math.max(...[...head.shapes, ...head.visemes].map(({node, index}) => node.morphTargetInfluences[index])),
+    return {most: Math.max(...[...head.shapes, ...head.visemes].map(({node, index}) =>
+        node.morphTargetInfluences[index])),
       vertices: Math.max(...head.shapes.map(({node}) => node.geometry.attributes.position.count))};
   });
   assert.ok(most > 0.1, `${most}`);
   assert.ok(vertices > 3000, `${vertices}`);
-  if (process.env.ANIMEME_PICTURES) await page.screenshot(join(process.env.ANIMEME_PICTURES, 'me.png'));
+  if (process.env.ANIMEME_PICTURES) await page.screenshot(join(process.env.ANIMEME_PICTURES,
+      'me.png'));
   await page.close();
 });
 
 for (const name of ['arkit_and_visemes', 'visemes_only', 'brunette-t']) {
   const there = existsSync(`${avatars}/${name}.glb`);
-  test(`an avatar of users: ${name}`, {skip: there ? false : 'no avatars beside the tree'}, async () => {
+  test(`an avatar of users: ${name}`, {skip: there ? false : 'no avatars beside the tree'},
+      async () => {
     const page = await open();
     await put(page, {src: '/media/talk.fba', head: `/avatars/${name}.glb`});
     await page.evaluate('face.headLoaded.then(() => true)');
@@ -321,12 +343,14 @@ for (const name of ['arkit_and_visemes', 'visemes_only', 'brunette-t']) {
       for (let i = 0; i < 5; ++i) await new Promise(requestAnimationFrame);
       const {head} = face.viewport;
       return {byVisemes: head.byVisemes, bone: head.head?.node.name,
-        most: Math.max(...[...head.shapes, ...head.visemes].map(({node, index}) => node.morphTargetInfluences[index]))};
+        most: Math.max(...[...head.shapes, ...head.visemes].map(({node, index}) =>
+            node.morphTargetInfluences[index]))};
     });
     assert.equal(moved.byVisemes, name === 'visemes_only');
     assert.equal(moved.bone, 'Head');
     assert.ok(moved.most > 0.1, JSON.stringify(moved));
-    if (process.env.ANIMEME_PICTURES) await page.screenshot(join(process.env.ANIMEME_PICTURES, `${name}.png`));
+    if (process.env.ANIMEME_PICTURES) await page.screenshot(join(process.env.ANIMEME_PICTURES,
+        `${name}.png`));
     await page.close();
   });
 }

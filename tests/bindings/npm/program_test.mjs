@@ -1,5 +1,5 @@
-// program_test.mjs PACKAGE PROGRAM SOURCE: values of the package beside those of the program, and of the page that it
-// writes.
+// program_test.mjs PACKAGE PROGRAM SOURCE: values of the package beside those of the program, and
+// of the page that it writes.
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import {mkdtempSync, readFileSync, rmSync} from 'node:fs';
@@ -38,7 +38,8 @@ for (const name of ['talk', 'measured', 'fast']) {
     assert.equal(rows.length, frames.length);
     rows.forEach((row, i) => {
       const weights = fitter.fit(frames[i]);
-      row.forEach((weight, k) => assert.ok(Math.abs(weights[k] - weight) < 6e-5, `frame ${i}, ${names[k]}`));
+      row.forEach((weight, k) => assert.ok(Math.abs(weights[k] - weight) < 6e-5,
+          `frame ${i}, ${names[k]}`));
     });
   });
 
@@ -49,13 +50,15 @@ for (const name of ['talk', 'measured', 'fast']) {
     assert.deepEqual(names, animeme.visemeNames());
     rows.forEach((row, i) => {
       const weights = fitter.fit(frames[i]);
-      row.forEach((weight, k) => assert.ok(Math.abs(weights[k] - weight) < 6e-5, `frame ${i}, ${names[k]}`));
+      row.forEach((weight, k) => assert.ok(Math.abs(weights[k] - weight) < 6e-5,
+          `frame ${i}, ${names[k]}`));
     });
   });
 
   test(`${name}: TalkingHead is told what the program tells it`, () => {
     run('export', `${name}.fba`, '-o', `${name}.talkinghead.json`);
-    assert.deepEqual(animeme.talkingHead(frames, null), JSON.parse(text(`${name}.talkinghead.json`)));
+    assert.deepEqual(animeme.talkingHead(frames, null),
+        JSON.parse(text(`${name}.talkinghead.json`)));
     const words = [{text: 'hello', start: 0, end: 0.4}];
     const {anim, anims, visemes, vtimes} = animeme.talkingHead(frames, null, {shapes: true, words});
     // Its player makes visemes from words unless there are some, if only none.
@@ -81,7 +84,8 @@ for (const name of ['talk', 'measured', 'fast']) {
   });
 }
 
-test('a frame alone has the weights of a fit that has seen nothing, and there is a way back', () => {
+test('a frame alone has the weights of a fit that has seen nothing, and there is a way back',
+    () => {
   const frames = animeme.decode(bytes('talk.fba'), {shown: true});
   const weights = animeme.arkit(frames[20]);
   const fitted = new animeme.ArkitFitter().fit(frames[20]);
@@ -126,8 +130,10 @@ test('a speaker says what the program says', async () => {
   assert.ok(speech.ended);
   assert.deepEqual(live.map(faceOf), plain.map(faceOf));
   assert.equal(plain[1].time, 0.02);
-  assert.throws(() => speaker.speak('nothing of that kind'), {code: 'syntax', name: 'AnimemeError'});
-  assert.throws(() => speaker.begin().push({start: 0, end: 1, phone: 'XX'}), {code: /invalid_argument|not_found/});
+  assert.throws(() => speaker.speak('nothing of that kind'),
+      {code: 'syntax', name: 'AnimemeError'});
+  assert.throws(() => speaker.begin().push({start: 0, end: 1, phone: 'XX'}),
+      {code: /invalid_argument|not_found/});
 });
 
 test('moods, looks, parts that are still and the tongue are those of the program', async () => {
@@ -135,13 +141,16 @@ test('moods, looks, parts that are still and the tongue are those of the program
   const speaker = await animeme.Speaker.load();
   const cases = [
     [{mood: 'joy:0.6', seed: 3}, ['--mood', 'joy:0.6', '--seed', '3']],
-    [{mood: 'thinking', look: '20,-5', still: 'blinks,brows'}, ['--mood', 'thinking', '--look', '20,-5', '--still', 'blinks,brows']],
+    [{mood: 'thinking', look: '20,-5', still: 'blinks,brows'},
+        ['--mood', 'thinking', '--look', '20,-5', '--still', 'blinks,brows']],
     [{tongue: false, idleMotion: 0.5}, ['--no-tongue', '--liveliness', '0.5']],
-    [{mood: 'anger', idleMotion: 0, style: 1.2}, ['--mood', 'anger', '--no-idle-motion', '--style', '1.2']],
+    [{mood: 'anger', idleMotion: 0, style: 1.2}, ['--mood', 'anger', '--no-idle-motion', '--style',
+        '1.2']],
   ];
   for (const [options, args] of cases) {
     run('speak', '--script', file, ...args, '-o', 'moody.fap');
-    assert.deepEqual(speaker.speak(script, options).map(faceOf), readText(text('moody.fap')), args.join(' '));
+    assert.deepEqual(speaker.speak(script, options).map(faceOf), readText(text('moody.fap')),
+        args.join(' '));
   }
   const moodOf = (mood) => {
     const speech = speaker.begin({mood});
@@ -167,19 +176,22 @@ test('the face of an mp4 is that of its stream, whole, in fragments and in piece
   for (const name of ['hello', 'fragments', 'systems', 'opus']) {
     const track = animeme.decodeMp4(bytes(`${name}.mp4`));
     assert.deepEqual(track.frames.map(faceOf), want.map(faceOf), name);
-    track.frames.forEach((frame, i) => assert.ok(Math.abs(frame.time - want[i].time) < 1e-3, `${name}: ${frame.time}`));
+    track.frames.forEach((frame, i) => assert.ok(Math.abs(frame.time - want[i].time) < 1e-3,
+        `${name}: ${frame.time}`));
     assert.ok(Math.abs(track.end - want.length / 25) < 1e-3);
     assert.equal(track.at(0.5).number, 12);
   }
   const whole = bytes('fragments.mp4');
   const reader = new animeme.Mp4Reader();
   const pieces = [];
-  for (let at = 0; at < whole.length; at += 333) pieces.push(...reader.push(whole.subarray(at, at + 333)));
+  for (let at = 0; at < whole.length;
+      at += 333) pieces.push(...reader.push(whole.subarray(at, at + 333)));
   reader.finish();
   assert.deepEqual(pieces, new animeme.Mp4Reader().push(whole));
   assert.ok(reader.bytes.length < 400);
   assert.throws(() => animeme.decodeMp4(whole.subarray(0, 900)), {name: 'AnimemeError'});
-  assert.throws(() => animeme.decodeMp4(new TextEncoder().encode('no mp4 at all')), {code: 'syntax'});
+  assert.throws(() => animeme.decodeMp4(new TextEncoder().encode('no mp4 at all')),
+      {code: 'syntax'});
 });
 
 test('the edits of a track move its times', () => {
@@ -187,7 +199,8 @@ test('the edits of a track move its times', () => {
   const {timescale} = readerOf(moved).track;
   let edits = 0;
   for (let i = 0; i + 20 < moved.length; ++i) {
-    if (String.fromCharCode(...moved.subarray(i, i + 4)) !== 'elst' || view.getUint32(i + 8) !== 1) continue;
+    if (String.fromCharCode(...moved.subarray(i, i + 4)) !== 'elst' || view.getUint32(i + 8) !== 1)
+        continue;
     view.setInt32(i + 16, timescale / 4);  // begins a quarter of a second into the track
     ++edits;
   }
@@ -224,7 +237,8 @@ test('a broken mp4 is an error or a face, whatever is broken', () => {
   // A fragment that ends in the middle of a header.
   const box = (type, ...content) => [0, 0, 0, 8 + content.length, ...Buffer.from(type), ...content];
   const cut = Uint8Array.from(box('moof', ...box('traf', ...box('tfhd', 0, 0, 0, 0))));
-  assert.throws(() => readerOf(bytes('fragments.mp4')).push(cut), {name: 'AnimemeError', code: 'syntax'});
+  assert.throws(() => readerOf(bytes('fragments.mp4')).push(cut),
+      {name: 'AnimemeError', code: 'syntax'});
 });
 
 // As page.cpp puts it in: base64 of a deflated clip.

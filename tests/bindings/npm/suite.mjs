@@ -1,6 +1,9 @@
 // The conformance suite by the package, in node and in pages: every value, mask, number and rate.
 
-/** The frames of FAP text of version 2.1, or of BAP text: {number, values by index}, nothing where the mask is 0. */
+/**
+ * The frames of FAP text of version 2.1, or of BAP text: {number, values by index}, nothing where
+ * the mask is 0.
+ */
 export function readText(text) {
   const lines = text.split('\n').filter((line) => line.trim() !== '' && !line.startsWith('#'));
   const isFap = lines[0].startsWith('2.1');
@@ -27,7 +30,8 @@ export function faceOf({number, values, mask, viseme, expression}) {
   const coded = Array.from(mask, (present, i) => present ? String(values[i]) : null);
   if (viseme) coded[0] = bits([viseme.select1, viseme.select2, viseme.blend, viseme.def]);
   if (expression) {
-    coded[1] = bits([expression.select1, expression.intensity1, expression.select2, expression.intensity2,
+    coded[1] = bits([expression.select1, expression.intensity1, expression.select2,
+        expression.intensity2,
                      expression.initFace, expression.def]);
   }
   return {number, coded};
@@ -40,7 +44,8 @@ const bodyOf = ({number, body}) =>
 function firstDifference(what, got, want) {
   if (got.length !== want.length) return `${got.length} frames of a ${what}, not ${want.length}`;
   for (let i = 0; i < want.length; ++i) {
-    if (got[i].number !== want[i].number) return `${what} ${i} has number ${got[i].number}, not ${want[i].number}`;
+    if (got[i].number !== want[i].number)
+        return `${what} ${i} has number ${got[i].number}, not ${want[i].number}`;
     for (let k = 0; k < Math.max(want[i].coded.length, got[i].coded.length); ++k) {
       const value = got[i].coded[k] ?? null, right = want[i].coded[k] ?? null;
       if (value !== right) return `${what} ${i}, parameter ${k + 1}: ${value}, not ${right}`;
@@ -73,7 +78,10 @@ function decodeAll(animeme, bytes) {
   return {frames, failures};
 }
 
-/** `read(path)`: bytes of a file of the suite, null if there is none. What is wrong, and how much was compared. */
+/**
+ * `read(path)`: bytes of a file of the suite, null if there is none. What is wrong, and how much
+ * was compared.
+ */
 export async function checkSuite(animeme, names, read) {
   const report = {cases: 0, frames: 0, values: 0, wrong: []};
   const text = async (path) => {
@@ -85,21 +93,27 @@ export async function checkSuite(animeme, names, read) {
     const {frames, failures} = decodeAll(animeme, await read(`${name}/${name}.fba`));
     const damaged = about.expected === 'error';
     const part = damaged ? 'intact' : 'dec';
-    const faces = await text(`${name}/${name}.${part}.fap`), bodies = await text(`${name}/${name}.${part}.bap`);
+    const faces = await text(`${name}/${name}.${part}.fap`),
+        bodies = await text(`${name}/${name}.${part}.bap`);
     const got = frames.filter((frame) => frame.face).map(faceOf);
     const gotBodies = frames.filter((frame) => frame.body).map(bodyOf);
     const problem = firstDifference('face', got, faces ? readText(faces) : []) ??
-        (bodies || !damaged ? firstDifference('body', gotBodies, bodies ? readText(bodies) : []) : null) ??
-        (frames[0] && !rateIs(frames[0].rate, about.rate) ? `rate ${frames[0].rate}, not ${about.rate}` : null) ??
+        (bodies || !damaged ? firstDifference('body', gotBodies, bodies ? readText(bodies) : []) :
+            null) ??
+        (frames[0] && !rateIs(frames[0].rate, about.rate) ?
+            `rate ${frames[0].rate}, not ${about.rate}` : null) ??
         (damaged !== failures.length > 0 ? `failures: ${failures}` : null) ??
-        (damaged && !about.errors.includes(failures[0]) ? `${failures[0]}, not ${about.errors}` : null);
+        (damaged && !about.errors.includes(failures[0]) ? `${failures[0]}, not ${about.errors}` :
+            null);
     if (problem) report.wrong.push(`${name}: ${problem}`);
     ++report.cases;
     report.frames += frames.length;
-    for (const {coded} of [...got, ...gotBodies]) report.values += coded.filter((value) => value !== null).length;
+    for (const {coded} of [...got, ...gotBodies]) report.values += coded.filter((value) =>
+        value !== null).length;
   }
   return report;
 }
 
 // "29.97" of texts is 30000/1001.
-const rateIs = ([num, den], text) => Number((num / den).toFixed((text.split('.')[1] ?? '').length)) === Number(text);
+const rateIs = ([num, den],
+    text) => Number((num / den).toFixed((text.split('.')[1] ?? '').length)) === Number(text);

@@ -24,4 +24,5 @@ const heard: string[] | undefined = talkingHead(spoken, new ArrayBuffer(2)).vise
 // @ts-expect-error: a frame has no such member
 frames[0].nothing;
 export function play(face: AnimemeFace): Promise<void> { return heard ? face.play() : face.loaded; }
-export const element: AnimemeFace | null = typeof document === 'undefined' ? null : document.querySelector('animeme-face');
+export const element: AnimemeFace | null = typeof document === 'undefined' ? null :
+    document.querySelector('animeme-face');

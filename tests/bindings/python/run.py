@@ -5,7 +5,8 @@ run.py FILE [MODULES...]: the modules of Python that it needs besides NumPy and 
 import importlib
 import sys
 
-PACKAGES = {"numpy": "python3-numpy", "pytest": "python3-pytest", "matplotlib": "python3-matplotlib"}
+PACKAGES = {"numpy": "python3-numpy", "pytest": "python3-pytest",
+    "matplotlib": "python3-matplotlib"}
 
 for name in ["numpy", "pytest", *sys.argv[2:]]:
     try:

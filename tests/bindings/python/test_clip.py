@@ -46,7 +46,8 @@ def test_columns_are_assigned_and_changed_in_place():
     others = [i for i in range(68) if i not in (2, 3)]
     assert (clip.values[:, others] == before[:, others]).all()
     for name, value, error in (("open_door", 1, KeyError), ("viseme", 1, KeyError),
-                               ("open_jaw", np.zeros(len(clip) + 1), ValueError), ("open_jaw", np.nan, ValueError)):
+                               ("open_jaw", np.zeros(len(clip) + 1), ValueError),
+                               ("open_jaw", np.nan, ValueError)):
         with pytest.raises(error):
             clip[name] = value
     with pytest.raises(TypeError):

@@ -85,7 +85,8 @@ def test_live_units_decode_one_by_one():
     planes += decoder
     assert decoder.ended and [p.number for p in planes] == [0, 1, 2, 3, *range(5, len(clip) + 1)]
     for plane, mask, (shown, intra) in zip(planes, clip.mask, sent):
-        assert (plane.values[mask] == shown[mask]).all() and plane.intra == intra and plane.rate == 30
+        assert (plane.values[mask] == shown[mask]).all(
+            ) and plane.intra == intra and plane.rate == 30
     assert sum(intra for _, intra in sent) >= 3
 
 
@@ -160,7 +161,8 @@ def test_threads_decode_at_once(sample_clip):
 
 def test_the_configuration_of_a_decoder():
     config = animeme.Encoder(rate=30, quant=3).config
-    assert config[:4] == bytes([0, 0, 1, 0xB0]) and config[4] == 0x62 and config[5:9] == bytes([0, 0, 1, 0xB5])
+    assert config[:4] == bytes([0, 0, 1, 0xB0]) and config[4] == 0x62 and config[5:9] == bytes([0,
+        0, 1, 0xB5])
     encoder = animeme.Encoder()
     values = np.zeros(68)
     values[2] = 100

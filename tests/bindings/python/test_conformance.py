@@ -13,7 +13,8 @@ NAMES = sorted(path.parent.name for path in CASES.glob("*/case.json"))
 
 def frames_of(path, count):
     """Masks, numbers and values of FAP or BAP text, read by hand: line by line."""
-    lines = [line for line in path.read_text().splitlines() if line.strip() and not line.startswith("#")]
+    lines = [line for line in path.read_text().splitlines() if line.strip()
+        and not line.startswith("#")]
     frames = []
     for mask_line, value_line in zip(lines[1::2], lines[2::2]):
         mask = np.array(mask_line.split(), int).astype(bool)

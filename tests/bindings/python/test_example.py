@@ -9,8 +9,10 @@ from conftest import SAMPLE, SOURCE
 
 def test_plot_clip(tmp_path):
     picture = tmp_path / "talk.png"
-    command = [sys.executable, SOURCE / "tools/bindings/examples/plot_clip.py", SAMPLE / "fap/prac8p.csv", "-o", picture]
-    run = subprocess.run(command, capture_output=True, text=True, env={**os.environ, "MPLCONFIGDIR": str(tmp_path)})
+    command = [sys.executable, SOURCE / "tools/bindings/examples/plot_clip.py",
+        SAMPLE / "fap/prac8p.csv", "-o", picture]
+    run = subprocess.run(command, capture_output=True, text=True,
+        env={**os.environ, "MPLCONFIGDIR": str(tmp_path)})
     assert run.returncode == 0, run.stderr
     assert "75 frames" in run.stdout and re.search(r"\d kbit/s", run.stdout)
     import matplotlib.image

@@ -41,7 +41,8 @@ def test_sound_goes_into_containers(sample_clip, tmp_path):
         file.writeframes((8000 * np.sin(np.arange(48000) / 4)).astype("<i2").tobytes())
     sample_clip.save(tmp_path / "a.mp4", audio=tmp_path / "beep.wav")
     assert animeme.load(tmp_path / "a.mp4").duration == 3
-    info = subprocess.run([PROGRAM, "info", "--json", tmp_path / "a.mp4"], capture_output=True, check=True)
+    info = subprocess.run([PROGRAM, "info", "--json", tmp_path / "a.mp4"], capture_output=True,
+        check=True)
     assert b"aac" in info.stdout
     with pytest.raises(animeme.Error) as caught:
         sample_clip.save(tmp_path / "b.mp4", audio=tmp_path / "none.wav")
@@ -73,7 +74,8 @@ def test_arkit_there_and_back(tmp_path):
 def test_visemes(sample_clip, tmp_path):
     weights = sample_clip.visemes()
     assert weights.shape == (len(sample_clip), 15) and np.allclose(weights.sum(axis=1), 1)
-    for ending in (".visemes.json", ".visemes.csv", ".tsv", ".xml", ".dat", ".rhubarb.json", ".talkinghead.json"):
+    for ending in (".visemes.json", ".visemes.csv", ".tsv", ".xml", ".dat", ".rhubarb.json",
+        ".talkinghead.json"):
         sample_clip.save(tmp_path / f"a{ending}")
         assert (tmp_path / f"a{ending}").stat().st_size > 50
 
@@ -152,7 +154,8 @@ def test_scripts(tmp_path):
         again = animeme.read_script(tmp_path / f"a{ending}")
         assert [p.label for p in again] == [p.label for p in phones]
     for wrong, kind in (([(0, 1)], TypeError), ([(0, 1, "P"), (0.5, 2, "B")], animeme.Error),
-                        ([(0, 1, "no such sound")], animeme.Error), (["P"], TypeError), ([7], TypeError),
+                        ([(0, 1, "no such sound")], animeme.Error), (["P"], TypeError),
+                        ([7], TypeError),
                         ([("a", 1, "P")], TypeError), ([(0, 1, 2)], TypeError), (3, TypeError)):
         with pytest.raises(kind):
             animeme.write_script(wrong, tmp_path / "b.tsv")

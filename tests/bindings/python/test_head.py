@@ -20,7 +20,8 @@ def fap(name, value):
 def test_the_mesh(head):
     n = len(head.vertices)
     assert head.vertices.shape == (n, 3) and head.vertices.dtype == np.float32
-    assert head.triangles.dtype == np.uint32 and head.triangles.max() < n and not head.triangles.flags.writeable
+    assert head.triangles.dtype == np.uint32 and head.triangles.max(
+        ) < n and not head.triangles.flags.writeable
     assert head.colours.shape == (n, 3) and 0 <= head.colours.min() <= head.colours.max() <= 1
     parts = sorted((p.start, p.stop) for p in head.parts.values())
     assert parts[0][0] == 0 and parts[-1][1] == n and "skin" in head.parts and head.notes == []
@@ -42,7 +43,8 @@ def test_faps_move_it(head):
     down = fap("pitch_l_eyeball", 20000)
     skin = head.parts["skin"]
     assert not np.array_equal(head.pose(down)[skin], head.pose(down, np.ones(68, bool))[skin])
-    assert np.array_equal(head.pose(down, follow=False)[skin], head.pose(down, np.ones(68, bool))[skin])
+    assert np.array_equal(head.pose(down, follow=False)[skin],
+        head.pose(down, np.ones(68, bool))[skin])
 
 
 def test_clips_are_posed_frame_by_frame(head):

@@ -10,12 +10,17 @@ import pytest
 import animeme
 from conftest import random_clip
 
-ODD = [None, True, -1, 0, 1e308, float("nan"), float("inf"), 2**63, 2**200, "", "\0", "\ud800", "a" * 100_000, b"", b"\0" * 1000,
-       [], [[]], {}, (), object(), object, np.zeros(0), np.zeros((0, 68)), np.zeros((3, 67)), np.zeros((2, 68, 2)),
-       np.full((2, 68), np.nan), np.full((2, 68), 2.0**40), np.zeros((2, 68), dtype=complex), np.zeros((2, 68), dtype=object),
-       np.zeros((2, 68), dtype="U3"), np.zeros((68, 2)).T, np.zeros((4, 68))[::-2], np.array("x"), np.ma.masked,
+ODD = [None, True, -1, 0, 1e308, float("nan"), float("inf"), 2**63, 2**200, "", "\0", "\ud800",
+    "a" * 100_000, b"", b"\0" * 1000,
+       [], [[]], {}, (), object(), object, np.zeros(0), np.zeros((0, 68)), np.zeros((3, 67)),
+       np.zeros((2, 68, 2)),
+       np.full((2, 68), np.nan), np.full((2, 68), 2.0**40), np.zeros((2, 68), dtype=complex),
+       np.zeros((2, 68), dtype=object),
+       np.zeros((2, 68), dtype="U3"), np.zeros((68, 2)).T, np.zeros((4, 68))[::-2], np.array("x"),
+       np.ma.masked,
        np.broadcast_to(np.int32(1), (2**20, 2**20)), memoryview(b"abc"), range(10), iter([1, 2])]
-ALLOWED = (animeme.Error, TypeError, ValueError, KeyError, IndexError, OverflowError, MemoryError, OSError, AttributeError,
+ALLOWED = (animeme.Error, TypeError, ValueError, KeyError, IndexError, OverflowError, MemoryError,
+    OSError, AttributeError,
            NotImplementedError, UnicodeError, BufferError)
 
 
@@ -28,7 +33,8 @@ def tried(call, *arguments, **named):
 
 
 def test_each_function_answers_each_odd_value():
-    functions = [animeme.load, animeme.read, animeme.decode, animeme.encode, animeme.read_script, animeme.load_model, animeme.Clip,
+    functions = [animeme.load, animeme.read, animeme.decode, animeme.encode, animeme.read_script,
+        animeme.load_model, animeme.Clip,
                  animeme.Corpus, animeme.Decoder, animeme.Encoder, animeme.Model, animeme.train]
     for function in functions:
         for value in ODD:
@@ -40,13 +46,15 @@ def test_each_function_answers_each_odd_value():
 def test_clips_take_no_wrong_arrays():
     clip = random_clip(3)
     kept = clip.values.copy()
-    for name, value in itertools.product(("values", "mask", "viseme", "expression", "numbers", "rate"), ODD):
+    for name, value in itertools.product(("values", "mask", "viseme", "expression", "numbers",
+        "rate"), ODD):
         try:
             setattr(clip, name, value)
         except ALLOWED:
             continue
         clip = random_clip(3)  # it was one of the right kind
-    for key, value in itertools.product(["open_jaw", "x", 0, -1, 10**9, None, slice(None), 2.5], ODD[:20]):
+    for key, value in itertools.product(["open_jaw", "x", 0, -1, 10**9, None, slice(None), 2.5],
+        ODD[:20]):
         try:
             clip[key] = value
         except ALLOWED:
@@ -97,4 +105,5 @@ resource.setrlimit(resource.RLIMIT_AS, (resource.RLIM_INFINITY, resource.RLIM_IN
 print('alive')
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=250)
-    assert done.returncode == 0 and done.stdout.rstrip().endswith("alive"), (done.returncode, done.stderr[-500:])
+    assert done.returncode == 0 and done.stdout.rstrip().endswith("alive"), (done.returncode,
+        done.stderr[-500:])

@@ -1,4 +1,5 @@
-"""The Python examples of the pages run as they stand, in a folder that has the files that they name."""
+"""The Python examples of the pages run as they stand, in a folder that has the files that they
+name."""
 import re
 import shutil
 

@@ -35,20 +35,25 @@ def spoken(model):
 
 def test_phones_become_a_face(model, phones):
     speech = model.speak(phones, idle_motion=False, tongue=False)
-    assert speech.names == model.controls and speech.values.shape == (len(speech.times), len(speech.names))
+    assert speech.names == model.controls and speech.values.shape == (len(speech.times),
+        len(speech.names))
     assert speech.audio is None and speech.sample_rate == 0 and speech.phones == phones
     assert speech.rate == 25 and len(speech.clip) == len(speech.times)
-    assert (speech.clip["open_jaw"] == np.round(speech.values[:, speech.names.index("fap3_open_jaw")])).all()
+    assert (speech.clip["open_jaw"] == np.round(speech.values[:,
+        speech.names.index("fap3_open_jaw")])).all()
     assert len(model.speak(phones, rate=50).clip) == pytest.approx(2 * len(speech.clip), abs=1)
-    still = model.speak([tuple(p)[:3] for p in phones], style=0, articulation=0, idle_motion=False, tongue=False).values
+    still = model.speak([tuple(p)[:3] for p in phones], style=0, articulation=0, idle_motion=False,
+        tongue=False).values
     assert np.ptp(still, axis=0).max() < np.ptp(speech.values, axis=0).max() / 2
     lively = model.speak(phones, seed=3)
-    assert lively.names[: len(model.controls)] == model.controls and "fap19_close_t_l_eyelid" in lively.names
+    assert lively.names[
+        : len(model.controls)] == model.controls and "fap19_close_t_l_eyelid" in lively.names
 
 
 @pytest.mark.skipif(not PROGRAM.exists(), reason="the program is not built")
 def test_the_face_is_that_of_the_program(model, phones, tmp_path):
-    command = [PROGRAM, "speak", "--script", SAMPLE / "phonemes/prac8p.tsv", "-o", tmp_path / "a.fap", "--idle-motion"]
+    command = [PROGRAM, "speak", "--script", SAMPLE / "phonemes/prac8p.tsv", "-o",
+        tmp_path / "a.fap", "--idle-motion"]
     subprocess.run(command, check=True, capture_output=True)
     theirs, ours = animeme.load(tmp_path / "a.fap"), model.speak(phones).clip
     assert (theirs.values == ours.values).all() and (theirs.mask == ours.mask).all()
@@ -57,7 +62,8 @@ def test_the_face_is_that_of_the_program(model, phones, tmp_path):
 def test_text_becomes_sound_and_face(spoken, tmp_path):
     assert spoken.audio.dtype == np.float32 and 0.05 < np.abs(spoken.audio).max() <= 1
     assert spoken.phones[-1].end == pytest.approx(len(spoken.audio) / spoken.sample_rate)
-    assert {p.word.strip(",.") for p in spoken.phones} >= {"Please", "story", "sea"} and spoken.voice
+    assert {p.word.strip(",.") for p in spoken.phones} >= {"Please", "story",
+        "sea"} and spoken.voice
     assert spoken.clip.duration == pytest.approx(len(spoken.audio) / spoken.sample_rate, abs=0.05)
     spoken.save(tmp_path / "a.mp4")
     carried = animeme.read_script(tmp_path / "a.mp4")
@@ -78,18 +84,21 @@ def test_a_recording_and_its_text(model, spoken, tmp_path):
     beside = model.speak(still.phones, audio=tmp_path / "voice.wav", idle_motion=False)
     assert np.abs(beside.audio - spoken.audio).max() < 1e-3 and beside.clip == still.clip
     try:
-        aligned = model.speak(audio=tmp_path / "voice.wav", transcript="Please tell me a story about the sea")
+        aligned = model.speak(audio=tmp_path / "voice.wav",
+            transcript="Please tell me a story about the sea")
     except animeme.Error as error:
         assert error.code == "unsupported"
         pytest.skip("built without pocketsphinx (Debian: libpocketsphinx-dev)")
-    assert sounds_of(aligned.phones)[0] == "P" and {p.word for p in aligned.phones} >= {"Please", "sea"}
+    assert sounds_of(aligned.phones)[0] == "P" and {p.word for p in aligned.phones} >= {"Please",
+        "sea"}
     with pytest.raises(animeme.Error) as caught:
         model.speak(audio=tmp_path / "none.wav", transcript="x")
     assert caught.value.code == "not_found" and caught.value.position.file
 
 
 def test_wrong_wishes(model, phones):
-    for wrong in ({"said": "a", "audio": "a.wav"}, {"said": phones, "transcript": "a"}, {}, {"said": 3}):
+    for wrong in ({"said": "a", "audio": "a.wav"}, {"said": phones, "transcript": "a"}, {},
+        {"said": 3}):
         with pytest.raises(TypeError):
             model.speak(**wrong)
     for wrong in ({"style": 2.0}, {"sharpness": -1.0}, {"articulation": float("nan")}):
@@ -111,7 +120,8 @@ def test_streams_give_the_frames_of_the_whole(model, phones):
     pieces.append(stream.finish())
     assert np.array_equal(np.concatenate(pieces), whole)
     early = animeme.SpeechStream(model, look_ahead=0.05)
-    assert sum(len(early.push(*phone)) for phone in phones) > sum(len(piece) for piece in pieces[:-1])
+    assert sum(len(early.push(*phone)) for phone in phones) > sum(len(piece) for piece
+        in pieces[:-1])
     with pytest.raises(animeme.Error):
         stream.push(0, 1, "P")
     with pytest.raises(animeme.Error):
@@ -133,7 +143,8 @@ def test_streams_with_a_tongue_and_a_mood(model, phones, mood):
 
 def test_models_of_other_rigs_have_values_alone(phones):
     random = np.random.default_rng(1)
-    sentences = [animeme.Sentence(str(i), phones, random.random((75, 2)), ["antenna", "tail"]) for i in range(3)]
+    sentences = [animeme.Sentence(str(i), phones, random.random((75, 2)), ["antenna", "tail"]) for i
+        in range(3)]
     with pytest.warns(animeme.InputWarning):
         rig = animeme.train(sentences, method="viseme")
     speech = rig.speak(phones)
@@ -165,11 +176,13 @@ def test_a_voice_is_followed_however_it_comes(model, voice):
     whole = voice_stream(model, rate)
     first = whole.push(samples)
     rows = np.concatenate([first, whole.finish()])
-    assert rows.shape == (-(-len(samples) * 25 // rate), len(model.controls)) and rows.dtype == np.float64
+    assert rows.shape == (-(-len(samples) * 25 // rate),
+        len(model.controls)) and rows.dtype == np.float64
     assert len(first) == pytest.approx(len(rows) - 0.25 * 25, abs=1.1)  # the delay
     assert np.ptp(rows[:, model.controls.index("fap3_open_jaw")]) > 50
     pieces = voice_stream(model, rate)
-    again = [pieces.push(samples[i : i + 1000].astype(np.float64) / 32768) for i in range(0, len(samples), 1000)]
+    again = [pieces.push(samples[i : i + 1000].astype(np.float64) / 32768) for i
+        in range(0, len(samples), 1000)]
     assert (np.concatenate([*again, pieces.finish()]) == rows).all()
     still = voice_stream(model, rate, style=0, articulation=0)
     quiet = np.concatenate([still.push(samples), still.finish()])

@@ -10,7 +10,8 @@ from conftest import SOURCE
 
 STUBS = ast.parse((SOURCE / "tools/bindings/python/animeme/__init__.pyi").read_text())
 # What Python or pybind11 adds to every class.
-OWN = {"__doc__", "__module__", "__hash__", "__getstate__", "__setstate__", "__weakref__", "__annotations__"}
+OWN = {"__doc__", "__module__", "__hash__", "__getstate__", "__setstate__", "__weakref__",
+    "__annotations__"}
 PLAIN = {"Error", "InputWarning", "Phone", "Position"}  # written in Python
 
 
@@ -19,7 +20,8 @@ def public(names):
 
 
 def defined(body):
-    """Names of a module or class of stubs with what stands for them: overloads and setters are lists."""
+    """Names of a module or class of stubs with what stands for them: overloads and setters are
+    lists."""
     found = {}
     for node in body:
         if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
@@ -58,7 +60,8 @@ def types_agree(ours, stub):
     if ours is None or stub is None:
         return ours is stub
     ours, stub = ast.unparse(ours), ast.unparse(stub)
-    plain = {"object": None, "buffer": "_Buffer", "Iterator": None, "dict": "dict", "list": "list", "tuple": "tuple"}
+    plain = {"object": None, "buffer": "_Buffer", "Iterator": None, "dict": "dict", "list": "list",
+        "tuple": "tuple"}
     array = re.fullmatch(r"numpy\.ndarray\[(?:numpy\.)?(\w+)\]", ours)
     if array and stub == "ArrayLike":
         return True
@@ -76,7 +79,8 @@ def check_function(name, function, nodes):
     node = nodes[-1]
     ours = of_module(function)
     assert arguments(ours) == arguments(node), name
-    given = {a.arg: a.annotation for a in ours.args.args + ours.args.kwonlyargs if a.arg not in ("self", "other")}
+    given = {a.arg: a.annotation for a in ours.args.args + ours.args.kwonlyargs if a.arg not
+        in ("self", "other")}
     for arg in node.args.args + node.args.kwonlyargs:
         if arg.arg in given and len(nodes) == 1:
             assert types_agree(given[arg.arg], arg.annotation), (name, arg.arg)
@@ -85,8 +89,10 @@ def check_function(name, function, nodes):
 
 def test_names_are_the_same():
     assert set(animeme.__all__) == public(MODULE) == public(CLASSES + FUNCTIONS) | {
-        name for name, (node, *_) in MODULE.items() if isinstance(node, ast.AnnAssign) and name in animeme.__all__}
-    missing = {name for name in public(vars(animeme)) if not inspect.ismodule(getattr(animeme, name))}
+        name for name, (node, *_) in MODULE.items() if isinstance(node, ast.AnnAssign) and name
+        in animeme.__all__}
+    missing = {name for name in public(vars(animeme)) if not inspect.ismodule(getattr(animeme,
+        name))}
     assert missing == set(animeme.__all__)
 
 
@@ -106,7 +112,8 @@ def test_classes_are_the_same(name):
         value = members[member]
         if isinstance(value, property):
             assert decorators(nodes[0]) == {"property"}, member
-            assert (value.fset is not None) == (len(nodes) == 2 and "setter" in decorators(nodes[1])), member
+            assert (value.fset is not None) == (len(nodes) == 2 and "setter"
+                in decorators(nodes[1])), member
             told = ast.parse("def f" + value.fget.__doc__.splitlines()[0] + ": ...").body[0]
             assert types_agree(told.returns, nodes[0].returns), member
         elif isinstance(value, staticmethod):
@@ -170,7 +177,8 @@ def test_arrays_are_described_with_shape_and_type():
             if not isinstance(value, property):
                 continue
             (node, *_) = defined(MODULE[name][0].body)[member]
-            array = re.fullmatch(r"(?:Optional\[)?NDArray\[np\.(\w+?)_?\]\]?", ast.unparse(node.returns))
+            array = re.fullmatch(r"(?:Optional\[)?NDArray\[np\.(\w+?)_?\]\]?",
+                ast.unparse(node.returns))
             if array and not re.match(rf"{array[1]} \([^)]+\): ", value.__doc__):
                 bare.append(f"{name}.{member}")
     assert bare == []

@@ -30,7 +30,8 @@ def test_corpora_are_sequences_of_sentences(corpus):
     assert sentence.names[0] == "fap3_open_jaw" and sentence.rate == 25
     assert sentence.fields["id"] == "prac8p" and isinstance(sentence.phones[0], animeme.Phone)
     assert (sentence.clip["open_jaw"] == np.round(sentence.values[:, 0])).all()
-    for wrong, kind in ((24, IndexError), (-25, IndexError), ("nobody", KeyError), (1.5, TypeError)):
+    for wrong, kind in ((24, IndexError), (-25, IndexError), ("nobody", KeyError),
+        (1.5, TypeError)):
         with pytest.raises(kind):
             corpus[wrong]
 
@@ -54,14 +55,16 @@ def test_late_scripts(corpus):
 def test_the_model_is_that_of_the_program(tmp_path):
     corpus = animeme.Corpus(SAMPLE, controls=[3, 4, 5])
     ours = animeme.train(corpus, method="viseme")
-    subprocess.run([PROGRAM, "train", SAMPLE, "--controls", "3-5", "--method", "viseme", "-o", tmp_path / "m.dam"],
+    subprocess.run([PROGRAM, "train", SAMPLE, "--controls", "3-5", "--method", "viseme", "-o",
+        tmp_path / "m.dam"],
                    check=True, capture_output=True)
     assert ours.to_bytes() == (tmp_path / "m.dam").read_bytes()
     assert ours == animeme.load_model(tmp_path / "m.dam")
 
 
 def test_sentences_made_of_arrays_teach_the_same(few, model):
-    made = [animeme.Sentence(s.id, s.phones, s.values, s.names, rate=s.rate, measured=s.measured) for s in few]
+    made = [animeme.Sentence(s.id, s.phones, s.values, s.names, rate=s.rate, measured=s.measured)
+        for s in few]
     assert animeme.train(made[::-1], threads=1) == model
     of_clips = [animeme.Sentence(s.id, [tuple(p) for p in s.phones], s.clip) for s in few]
     assert animeme.train(of_clips, method="mean").controls == model.controls
@@ -80,7 +83,8 @@ def test_models_say_what_they_are(model, tmp_path):
     assert caught.value.code in ("syntax", "truncated")
     with pytest.raises(animeme.Error) as caught:
         animeme.load_model(tmp_path / "none.dam")
-    assert caught.value.code == "not_found" and caught.value.position.file == str(tmp_path / "none.dam")
+    assert caught.value.code == "not_found" and caught.value.position.file == str(
+        tmp_path / "none.dam")
 
 
 def test_a_base_is_bent(few):
@@ -91,7 +95,8 @@ def test_a_base_is_bent(few):
 def test_progress_is_told_and_may_end_it(few):
     told = []
     animeme.train(few, progress=lambda share, stage: told.append((share, stage)))
-    assert {stage for _, stage in told} >= {"dominance", "curves"} and all(0 <= s <= 1 for s, _ in told)
+    assert {stage for _, stage in told} >= {"dominance", "curves"} and all(0 <= s <= 1 for s,
+        _ in told)
 
     def enough(share, stage):
         calls.append(stage)
@@ -134,16 +139,19 @@ def test_evaluation(corpus, model, few):
     assert found.sentences == 24 and 0.2 < found.nrmse < found.still_nrmse
     assert 0 <= found.closed <= 1 and 0 < found.correlation < 1 and "mean NRMSE" in str(found)
     assert found.to_dict()["mean"]["nrmse"] == found.nrmse if "mean" in found.to_dict() else True
-    assert animeme.evaluate(model, few, threads=1).nrmse == animeme.evaluate(model, few, threads=3).nrmse
+    assert animeme.evaluate(model, few, threads=1).nrmse == animeme.evaluate(model, few,
+        threads=3).nrmse
 
 
 @pytest.mark.skipif(not PROGRAM.exists(), reason="the program is not built")
 def test_the_evaluation_is_that_of_the_program(corpus):
     import json
     ours = animeme.evaluate(animeme.builtin_model(), corpus).to_dict()
-    done = subprocess.run([PROGRAM, "evaluate", "builtin", SAMPLE, "--json"], check=True, capture_output=True)
+    done = subprocess.run([PROGRAM, "evaluate", "builtin", SAMPLE, "--json"], check=True,
+        capture_output=True)
     its = json.loads(done.stdout)
-    ours.pop("system", None), its.pop("system", None), ours.pop("model", None), its.pop("model", None)
+    ours.pop("system", None), its.pop("system", None), ours.pop("model", None), its.pop("model",
+        None)
     assert ours == its
 
 
@@ -187,7 +195,8 @@ except KeyboardInterrupt:
 
 
 def test_ctrl_c_ends_a_training():
-    run = subprocess.run([sys.executable, "-c", INTERRUPTED, str(SAMPLE)], capture_output=True, text=True, timeout=100)
+    run = subprocess.run([sys.executable, "-c", INTERRUPTED, str(SAMPLE)], capture_output=True,
+        text=True, timeout=100)
     assert run.returncode == 0, run.stderr
     word, stages, method = run.stdout.split()
     assert word == "interrupted" and method == "mean"

@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
-"""What engines see of a stream: datagrams of Live Link Face, VMC or VRChat's OSC as JSON, a line a frame.
+"""What engines see of a stream: datagrams of Live Link Face, VMC or VRChat's OSC as JSON, a line a
+frame.
 
 Written from the public descriptions alone, with struct and nothing else: it shares no code with
 tools/live/engines, which it checks.
 
-  reader.py PROTOCOL FILE        datagrams from a file: f64 seconds, u32 length (little endian), bytes
-  reader.py PROTOCOL --port N --seconds S   datagrams of this machine; N 0: any, which is told first
+  reader.py PROTOCOL FILE        datagrams from a file: f64 seconds, u32 length (little endian),
+  bytes reader.py PROTOCOL --port N --seconds S   datagrams of this machine; N 0: any, which is told
+  first
 
-PROTOCOL is livelink, vmc or osc. A frame is {"at": seconds, "time": ..., "values": {name: weight}, ...};
-what does not follow the description ends it with a sentence and exit code 1.
+PROTOCOL is livelink, vmc or osc. A frame is {"at": seconds, "time": ..., "values": {name: weight},
+...}; what does not follow the description ends it with a sentence and exit code 1.
 """
 import json
 import socket
@@ -20,7 +22,8 @@ import time
 SIDES = ("Left", "Right")
 EYE = "EyeBlink EyeLookDown EyeLookIn EyeLookOut EyeLookUp EyeSquint EyeWide".split()
 SHAPES = [name + side for side in SIDES for name in EYE]
-SHAPES += ["JawForward", "JawLeft", "JawRight", "JawOpen", "MouthClose", "MouthFunnel", "MouthPucker",
+SHAPES += ["JawForward", "JawLeft", "JawRight", "JawOpen", "MouthClose", "MouthFunnel",
+    "MouthPucker",
            "MouthLeft", "MouthRight"]
 SHAPES += ["Mouth" + name + side for name in "Smile Frown Dimple Stretch".split() for side in SIDES]
 SHAPES += ["MouthRollLower", "MouthRollUpper", "MouthShrugLower", "MouthShrugUpper"]
@@ -28,7 +31,8 @@ SHAPES += ["Mouth" + name + side for name in "Press LowerDown UpperUp".split() f
 SHAPES += ["BrowDownLeft", "BrowDownRight", "BrowInnerUp", "BrowOuterUpLeft", "BrowOuterUpRight",
            "CheekPuff", "CheekSquintLeft", "CheekSquintRight", "NoseSneerLeft", "NoseSneerRight",
            "TongueOut"]
-SHAPES += [part + turn for part in ("Head", "LeftEye", "RightEye") for turn in ("Yaw", "Pitch", "Roll")]
+SHAPES += [part + turn for part in ("Head", "LeftEye", "RightEye") for turn
+    in ("Yaw", "Pitch", "Roll")]
 assert len(SHAPES) == 61
 
 
@@ -117,7 +121,8 @@ class Vmc:
                 must(isinstance(name, str) and isinstance(weight, float), "a weight is s and f")
                 self.values[name] = weight
             elif address == "/VMC/Ext/Blend/Apply":
-                must(values == [] and self.ok == [1, 3, 0], "Apply has no values and stands behind OK")
+                must(values == [] and self.ok == [1, 3, 0],
+                    "Apply has no values and stands behind OK")
                 yield {"time": self.time, "values": dict(self.values), "bones": dict(self.bones)}
                 self.values, self.bones, self.time, self.ok = {}, {}, None, None
             else:
@@ -172,13 +177,15 @@ def told(frame):
     """A line; seven decimals are what 32 bits have of a weight."""
     for group in ("values", "bones"):
         for name, value in frame.get(group, {}).items():
-            frame[group][name] = [round(x, 7) for x in value] if isinstance(value, (list, tuple)) else round(value, 7)
+            frame[group][name] = [round(x, 7) for x in value] if isinstance(value,
+                (list, tuple)) else round(value, 7)
     print(json.dumps(frame))
 
 
 def main(arguments):
     protocol = arguments[0]
-    take = {"livelink": lambda data: [live_link(data)], "vmc": Vmc().take, "osc": Parameters().take}[protocol]
+    take = {"livelink": lambda data: [live_link(data)], "vmc": Vmc().take,
+        "osc": Parameters().take}[protocol]
     if arguments[1] == "--port":
         datagrams = from_port(int(arguments[2]), float(arguments[4]))
     else:

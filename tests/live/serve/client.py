@@ -1,4 +1,5 @@
-"""What the tests of `animeme serve` need and share nothing with it: Python's HTTP client, a reader of
+"""What the tests of `animeme serve` need and share nothing with it: Python's HTTP client, a reader
+of
 WebSockets written from RFC 6455, and the server as a child."""
 
 import base64
@@ -109,7 +110,8 @@ class Socket:
             head += bytes([0x80 | 127]) + struct.pack(">Q", len(body))
         mask = os.urandom(4)
         whole = (mask * (len(body) // 4 + 1))[:len(body)]
-        masked = (int.from_bytes(body, "big") ^ int.from_bytes(whole, "big")).to_bytes(len(body), "big")
+        masked = (int.from_bytes(body, "big") ^ int.from_bytes(whole, "big")).to_bytes(len(body),
+            "big")
         self.socket.sendall(head + mask + masked)
 
     def unit(self):

@@ -1,4 +1,5 @@
-"""`animeme serve` as it is deployed: settings, nginx and HAProxy with TLS, the unit of systemd, files for containers.
+"""`animeme serve` as it is deployed: settings, nginx and HAProxy with TLS, the unit of systemd,
+files for containers.
 
 deploy_test.py PROGRAM FOLDER"""
 
@@ -42,8 +43,10 @@ class Secure:
     @staticmethod
     def certificate(folder):
         key, cert = os.path.join(folder, "key.pem"), os.path.join(folder, "cert.pem")
-        subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes",
-                        "-keyout", key, "-out", cert, "-days", "2", "-subj", "/CN=" + NAME, "-addext",
+        subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt",
+            "ec_paramgen_curve:prime256v1", "-nodes",
+                        "-keyout", key, "-out", cert, "-days", "2", "-subj", "/CN=" + NAME,
+                        "-addext",
                         "subjectAltName=DNS:" + NAME], check=True, capture_output=True)
         both = os.path.join(folder, "both.pem")
         with open(both, "w") as file:
@@ -87,7 +90,8 @@ class Behind(unittest.TestCase):
             while json.loads(owner.next())["event"] != "started":
                 pass
             yield b"Good bye.\n"
-        status, text = proxy.ask("POST", "/heads/anna/say", lines(), {**right, "Content-Type": "text/plain"}, True)
+        status, text = proxy.ask("POST", "/heads/anna/say", lines(),
+            {**right, "Content-Type": "text/plain"}, True)
         self.assertEqual((status, json.loads(text)["lines"]), (202, 2))
         moved = 0
         for _ in range(100):
@@ -96,7 +100,8 @@ class Behind(unittest.TestCase):
         self.assertGreater(moved, 30)
 
     def servers(self, count):
-        servers = [Server(PROGRAM, "--host-name", NAME, "--viewers", "token", env={"ANIMEME_TOKEN": "secret"})
+        servers = [Server(PROGRAM, "--host-name", NAME, "--viewers", "token",
+            env={"ANIMEME_TOKEN": "secret"})
                    for _ in range(count)]
         for server in servers:
             self.addCleanup(server.end)
@@ -112,7 +117,8 @@ class Behind(unittest.TestCase):
         port = free_port()
         with open(os.path.join(FOLDER, "nginx.conf")) as file:
             text = file.read()
-        for old, new in [("listen 443", f"listen 127.0.0.1:{port}"), ("127.0.0.1:8080", f"127.0.0.1:{server.port}"),
+        for old, new in [("listen 443", f"listen 127.0.0.1:{port}"),
+            ("127.0.0.1:8080", f"127.0.0.1:{server.port}"),
                          ("/etc/ssl/animeme.pem", cert), ("/etc/ssl/animeme.key", key)]:
             self.assertIn(old, text)
             text = text.replace(old, new)
@@ -123,7 +129,8 @@ class Behind(unittest.TestCase):
             file.write(f"daemon off; pid {folder}/pid; error_log {folder}/error.log;\nevents {{}}\n"
                        f"http {{ access_log off; {paths}\n{text}\n}}\n")
         os.chmod(folder, 0o755)
-        nginx = subprocess.Popen([find("nginx"), "-p", folder, "-c", whole], stderr=subprocess.DEVNULL)
+        nginx = subprocess.Popen([find("nginx"), "-p", folder, "-c", whole],
+            stderr=subprocess.DEVNULL)
         self.addCleanup(nginx.wait, 30)
         self.addCleanup(nginx.terminate)
         proxy = Secure(folder, port)
@@ -139,8 +146,10 @@ class Behind(unittest.TestCase):
         servers = self.servers(2)
         port = free_port()
         environment = {**os.environ, "FRONT": f"127.0.0.1:{port}", "CERTIFICATE": both,
-                       "FIRST": f"127.0.0.1:{servers[0].port}", "SECOND": f"127.0.0.1:{servers[1].port}"}
-        haproxy = subprocess.Popen([find("haproxy"), "-db", "-f", os.path.join(FOLDER, "haproxy.cfg")], env=environment,
+                       "FIRST": f"127.0.0.1:{servers[0].port}",
+                       "SECOND": f"127.0.0.1:{servers[1].port}"}
+        haproxy = subprocess.Popen([find("haproxy"), "-db", "-f",
+            os.path.join(FOLDER, "haproxy.cfg")], env=environment,
                                    stderr=subprocess.DEVNULL)
         self.addCleanup(haproxy.wait, 30)
         self.addCleanup(haproxy.kill)
@@ -165,15 +174,20 @@ class Files(unittest.TestCase):
                 self.assertEqual(server.ask("/health", headers={"Host": name})[0], 200)
             self.assertEqual(server.ask("/health", headers={"Host": "three.example"})[0], 421)
             self.assertEqual(server.end()[0], 0)
-            for text, sentence in [("max-head = 2\n", "did you mean max-heads?"), ("\nmax-heads\n", "line 2"),
-                                   ("max-heads = many\n", "max-heads"), ("make-on-say = yes\n", "true or false"),
-                                   ("drain = 1\ndrain = 2\n", "twice"), ("settings = x\n", "no setting"),
+            for text, sentence in [("max-head = 2\n", "did you mean max-heads?"),
+                ("\nmax-heads\n", "line 2"),
+                                   ("max-heads = many\n", "max-heads"),
+                                   ("make-on-say = yes\n", "true or false"),
+                                   ("drain = 1\ndrain = 2\n", "twice"),
+                                   ("settings = x\n", "no setting"),
                                    ("max-heads = 0\n", "max-heads"), ("log = xml\n", "log")]:
                 write(text)
-                done = subprocess.run([PROGRAM, "serve", "--settings", path], capture_output=True, text=True, timeout=60)
+                done = subprocess.run([PROGRAM, "serve", "--settings", path], capture_output=True,
+                    text=True, timeout=60)
                 self.assertEqual(done.returncode, 2, text)
                 self.assertIn(sentence, done.stderr)
-            done = subprocess.run([PROGRAM, "serve", "--settings", path + "x"], capture_output=True, timeout=60)
+            done = subprocess.run([PROGRAM, "serve", "--settings", path + "x"], capture_output=True,
+                timeout=60)
             self.assertEqual(done.returncode, 3)
 
     def test_the_example_of_settings_is_right(self):
@@ -196,11 +210,14 @@ class Files(unittest.TestCase):
             self.assertIn("ExecStart=/usr/bin/animeme serve", text)
             path = os.path.join(folder, "animeme-serve.service")
             with open(path, "w") as file:
-                file.write(text.replace("/usr/bin/animeme", PROGRAM).replace("Documentation=man:animeme-serve(1)\n", ""))
-            done = subprocess.run(["systemd-analyze", "verify", path], capture_output=True, text=True, timeout=60)
+                file.write(text.replace("/usr/bin/animeme",
+                    PROGRAM).replace("Documentation=man:animeme-serve(1)\n", ""))
+            done = subprocess.run(["systemd-analyze", "verify", path], capture_output=True,
+                text=True, timeout=60)
             ours = [line for line in done.stderr.splitlines() if "animeme-serve" in line]
             self.assertEqual(ours, [])
-            done = subprocess.run(["systemd-analyze", "security", "--offline=true", path], capture_output=True, text=True,
+            done = subprocess.run(["systemd-analyze", "security", "--offline=true", path],
+                capture_output=True, text=True,
                                   timeout=60)
             found = re.search(r"exposure level for animeme-serve.service: ([0-9.]+)", done.stdout)
             self.assertTrue(found, done.stdout + done.stderr)
@@ -222,7 +239,8 @@ class Files(unittest.TestCase):
             with open(token, "w") as file:
                 file.write("secret")
             with open(path, "w") as file:
-                file.write(re.sub(r"listen = .*\n", "", text).replace("/run/secrets/animeme/token", token))
+                file.write(re.sub(r"listen = .*\n", "", text).replace("/run/secrets/animeme/token",
+                    token))
             server = Server(PROGRAM, "--settings", path)
             pod = parts["Deployment"]["spec"]["template"]["spec"]
             for probe in ("readinessProbe", "livenessProbe", "startupProbe"):
@@ -240,9 +258,11 @@ class Files(unittest.TestCase):
             with tempfile.NamedTemporaryFile("w", suffix="token") as token:
                 token.write("secret")
                 token.flush()
-                given = [token.name if word == "/run/secrets/token" else word.replace("0.0.0.0:8080", "127.0.0.1:0")
+                given = [token.name if word == "/run/secrets/token"
+                    else word.replace("0.0.0.0:8080", "127.0.0.1:0")
                          for word in given]
-                process = subprocess.Popen([PROGRAM, "serve", *given, "--json"], stdout=subprocess.PIPE,
+                process = subprocess.Popen([PROGRAM, "serve", *given, "--json"],
+                    stdout=subprocess.PIPE,
                                            stderr=subprocess.DEVNULL, text=True)
                 self.assertIn("address", process.stdout.readline())
                 process.send_signal(signal.SIGTERM)

@@ -120,7 +120,8 @@ class Heads(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "ida.mp4")
             address = self.server.url.replace("http", "ws") + "/heads/ida/"
-            done = subprocess.run([PROGRAM, "receive", address, "-o", path, "--duration", "2", "--json"],
+            done = subprocess.run([PROGRAM, "receive", address, "-o", path, "--duration", "2",
+                "--json"],
                                   capture_output=True, text=True, timeout=60)
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertGreater(os.path.getsize(path), 1000)
@@ -152,7 +153,8 @@ class Heads(unittest.TestCase):
                 if message.get("event") == name:
                     return message
             self.fail(name)
-        self.server.ask("/heads/kim/say", "POST", "One, two, three, four, five, six, seven.\nEight.")
+        self.server.ask("/heads/kim/say", "POST",
+            "One, two, three, four, five, six, seven.\nEight.")
         self.assertIn("One", event("started")["text"])
         status, answer = self.server.json("/heads/kim/say", "POST", '{"do": "stop"}\nYes?')
         self.assertEqual(status, 202)
@@ -204,7 +206,8 @@ class Heads(unittest.TestCase):
     def test_what_is_wrong_is_told(self):
         for body, sentence in [
                 ('{"pitch": 101}', '"pitch" is a whole number from 0 to 100'),
-                ('{"pitch": 1.5}', '"pitch" is a whole number'), ('{"idle_motion": 1}', '"idle_motion" is true or false'),
+                ('{"pitch": 1.5}', '"pitch" is a whole number'),
+                ('{"idle_motion": 1}', '"idle_motion" is true or false'),
                 ('{"colour": "red"}', 'no "colour"; there are articulate'), ('[1]', "JSON object"),
                 ('{"pitch": ', "no JSON"), ('{"model": "../../etc/passwd"}', "there is no model"),
                 ('{"lang": "no such language"}', "no such"), ('{"rate": "1e9"}', "rate"),
@@ -221,9 +224,11 @@ class Heads(unittest.TestCase):
                 pass  # not worth an answer
         for method, path, status in [("GET", "/nothing", 404), ("DELETE", "/heads/nobody", 404),
                                      ("POST", "/heads/nobody/say", 404), ("PUT", "/heads", 405),
-                                     ("PATCH", "/heads/a", 404), ("PUT", "/heads/a/say", 405), ("GET", "/heads/nobody/face", 404),
+                                     ("PATCH", "/heads/a", 404), ("PUT", "/heads/a/say", 405),
+                                     ("GET", "/heads/nobody/face", 404),
                                      ("POST", "/heads/a/say", 404)]:
-            self.assertEqual(self.server.ask(path, method, "" if method == "POST" else None)[0], status, path)
+            self.assertEqual(self.server.ask(path, method, "" if method == "POST" else None)[0],
+                status, path)
         self.assertEqual(self.server.json("/heads")[1]["count"], 0)
 
     def test_json_is_a_line_too(self):
@@ -233,11 +238,13 @@ class Heads(unittest.TestCase):
                      '["One.", {"text": "Two.", "id": "2"}]', 'Three.\n{"text": "Four."}\n']:
             self.assertEqual(self.server.ask("/heads/jo/say", "POST", body)[0], 202, body)
         self.assertTrue(all(told.wait("done") for _ in range(5)))
-        ids = self.server.json("/heads/jo/say", "POST", '{"text": "Five.", "id": "last"}\nSix.')[1]["ids"]
+        ids = self.server.json("/heads/jo/say", "POST",
+            '{"text": "Five.", "id": "last"}\nSix.')[1]["ids"]
         self.assertEqual(ids, ["last", "7"])
         self.assertTrue(all(told.wait("done") for _ in range(2)))
         texts = [event["text"] for event in told.all if event["event"] == "started"]
-        self.assertEqual(texts, ["Hello there.", "One.", "Two.", "Three.", "Four.", "Five.", "Six."])
+        self.assertEqual(texts, ["Hello there.", "One.", "Two.", "Three.", "Four.", "Five.",
+            "Six."])
         self.assertEqual(told.all[0]["id"], "greeting")
         status, answer = self.server.json("/heads/jo/say", "POST", '{"text": "Hi.", "loud": true}')
         self.assertEqual(status, 400)
@@ -254,7 +261,8 @@ class Heads(unittest.TestCase):
             self.assertEqual(self.server.ask("/health")[0], 200)
             slow.append(time.monotonic() - begun)
         print("health in the middle of six long lines:", sorted(slow)[10], flush=True)
-        status, _, headers = ask_with_headers(self.server.url + "/heads/l0/say", "POST", "And more.")
+        status, _, headers = ask_with_headers(self.server.url + "/heads/l0/say", "POST",
+            "And more.")
         self.assertEqual(status, 429)
         self.assertGreaterEqual(int(headers["Retry-After"]), 1)
         # Stops are never refused; what follows them has room.
@@ -286,12 +294,14 @@ class Heads(unittest.TestCase):
         self.server.ask("/heads/gina", "PUT")
         viewer = Socket(self.server.port, "/heads/gina/face")
         viewer.next()
-        bad = [b"\x00" * 5000, b"GET", b"PUT /heads/x HTTP/1.1\r\nHost: a\r\nContent-Length: -1\r\n\r\n",
+        bad = [b"\x00" * 5000, b"GET",
+            b"PUT /heads/x HTTP/1.1\r\nHost: a\r\nContent-Length: -1\r\n\r\n",
                b"PUT /heads/x HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 99999999999999999999\r\n\r\n",
                b"PUT /heads/x HTTP/1.1\r\nHost: 127.0.0.1\r\nTransfer-Encoding: chunked\r\n\r\nfff\r\n{}",
                b"PUT /heads/x HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 50\r\n\r\n{",
                b"POST /heads/gina/say HTTP/1.1\r\n" + b"X: y\r\n" * 3000 + b"\r\n",
-               b"PUT " + b"/a" * 9000 + b" HTTP/1.1\r\n\r\n", b"DELETE /heads/gina HTTP/1.1\r\n\r\n",
+               b"PUT " + b"/a" * 9000 + b" HTTP/1.1\r\n\r\n",
+               b"DELETE /heads/gina HTTP/1.1\r\n\r\n",
                b"DELETE /heads/gina HTTP/1.1\r\nHost: evil.example\r\n\r\n",
                b"DELETE /heads/gina HTTP/1.1\r\nHost: 127.0.0.1\r\nOrigin: http://evil.example\r\n\r\n"]
         kept = []
@@ -306,7 +316,8 @@ class Heads(unittest.TestCase):
         for stranger in kept:
             stranger.close()
         self.assertTrue(until(lambda: self.server.ask("/health")[0] == 200))
-        self.assertEqual([head["name"] for head in self.server.json("/heads")[1]["heads"]], ["gina"])
+        self.assertEqual([head["name"] for head in self.server.json("/heads")[1]["heads"]],
+            ["gina"])
         planes_of(viewer, 25)
 
     def test_many_ask_at_once(self):
@@ -340,7 +351,8 @@ class Heads(unittest.TestCase):
         bars = [values[name] for name in values if "late_seconds_bucket" in name]
         self.assertEqual(bars, sorted(bars))
         self.assertEqual(bars[-1], values["animeme_late_seconds_count"])
-        self.assertTrue(until(lambda: "animeme_lines_total{end=\"done\"} 0" not in self.server.ask("/metrics")[1]))
+        self.assertTrue(until(lambda: "animeme_lines_total{end=\"done\"} 0" not
+            in self.server.ask("/metrics")[1]))
         text = self.server.ask("/metrics")[1]
         self.assertIn("animeme_build_info{version=", text)
         self.assertRegex(text, r'http_requests_total\{status="201"\} [1-9]')
@@ -367,7 +379,8 @@ class Ends(unittest.TestCase):
         self.assertEqual(server.json("/ready"), (200, {"ready": True}))
         server.ask("/heads/anna", "PUT")
         told = Socket(server.port, "/heads/anna/faps")
-        self.assertEqual(server.ask("/heads/anna/say", "POST", "One, two, three.\nAnd four.")[0], 202)
+        self.assertEqual(server.ask("/heads/anna/say", "POST", "One, two, three.\nAnd four.")[0],
+            202)
         events = Events(told)
         self.assertTrue(events.wait("started"))
         server.process.send_signal(signal.SIGTERM)
@@ -390,7 +403,8 @@ class Ends(unittest.TestCase):
         told = Events(Socket(server.port, "/heads/anna/faps"))
         gone = Events(Socket(server.port, "/heads/ben/faps"))
         for name in ("anna", "ben"):
-            server.ask(f"/heads/{name}/say", "POST", "I could go on like this for hours. " * 20 + "\nNext.")
+            server.ask(f"/heads/{name}/say", "POST", "I could go on like this for hours. " * 20
+                + "\nNext.")
         self.assertTrue(told.wait("started"))
         self.assertTrue(gone.wait("started"))
         server.ask("/heads/ben", "DELETE")
@@ -421,8 +435,10 @@ class Ends(unittest.TestCase):
     def test_it_writes_what_happens(self):
         for how in ("json", "text"):
             with tempfile.TemporaryFile("w+") as log:
-                process = subprocess.Popen([PROGRAM, "serve", "--listen", "http://127.0.0.1:0", "--json", "--quiet",
-                                            "--log", how], stdout=subprocess.PIPE, stderr=log, text=True)
+                process = subprocess.Popen([PROGRAM, "serve", "--listen", "http://127.0.0.1:0",
+                    "--json", "--quiet",
+                                            "--log", how], stdout=subprocess.PIPE, stderr=log,
+                                            text=True)
                 url = json.loads(process.stdout.readline())["address"].rstrip("/")
                 ask(url + "/heads/anna", "PUT", "")
                 ask(url + "/heads/anna/say", "POST", '{"text": "A secret.", "id": "one"}')
@@ -437,9 +453,12 @@ class Ends(unittest.TestCase):
                 self.assertRegex(text, r"Z line anna line=1 one done")
                 continue
             entries = [json.loads(line) for line in text.splitlines()]
-            self.assertIn(("head", "anna", "made"), [(e["kind"], e.get("head"), e.get("what")) for e in entries])
-            self.assertEqual([e["status"] for e in entries if e["kind"] == "request"], [201, 202, 404])
-            self.assertEqual([e["what"] for e in entries if e["kind"] == "line"], ["queued", "started", "done"])
+            self.assertIn(("head", "anna", "made"), [(e["kind"], e.get("head"), e.get("what")) for e
+                in entries])
+            self.assertEqual([e["status"] for e in entries if e["kind"] == "request"],
+                [201, 202, 404])
+            self.assertEqual([e["what"] for e in entries if e["kind"] == "line"],
+                ["queued", "started", "done"])
             self.assertTrue(all(e["time"].endswith("Z") for e in entries))
 
     def test_a_voice_that_dies_loses_no_line(self):
@@ -465,7 +484,8 @@ class Ends(unittest.TestCase):
             server = Server(PROGRAM, "--token-file", path)
             right = {"Authorization": "Bearer secret-1"}
             for wrong in [{}, {"Authorization": "Bearer secret-2"}, {"Authorization": "Bearer "},
-                          {"Authorization": "Basic secret-1"}, {"Authorization": "Bearer secret-11"}]:
+                          {"Authorization": "Basic secret-1"},
+                          {"Authorization": "Bearer secret-11"}]:
                 for method, path in [("PUT", "/heads/a"), ("GET", "/heads"), ("GET", "/metrics"),
                                      ("POST", "/heads/a/say"), ("DELETE", "/heads/a")]:
                     body = "" if method in ("PUT", "POST") else None
@@ -479,7 +499,8 @@ class Ends(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "heads.json")
             with open(path, "w") as file:
-                json.dump({"defaults": {"lang": "en-gb"}, "heads": [{"name": "anna", "seed": 3}]}, file)
+                json.dump({"defaults": {"lang": "en-gb"}, "heads": [{"name": "anna", "seed": 3}]},
+                    file)
             server = Server(PROGRAM, path, "--expire", "1", "--make-on-say")
             self.assertEqual(server.json("/heads/anna")[1]["settings"]["lang"], "en-gb")
             self.assertEqual(server.ask("/heads/new/say", "POST", "Hi.")[0], 202)

@@ -26,7 +26,8 @@ def voice():
     """Samples of 16 bits of a voice, and their seconds."""
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "voice.wav")
-        subprocess.run(["ffmpeg", "-v", "error", "-i", os.path.join(SAMPLES, "voice.wav"), "-ar", str(RATE), "-ac",
+        subprocess.run(["ffmpeg", "-v", "error", "-i", os.path.join(SAMPLES, "voice.wav"), "-ar",
+            str(RATE), "-ac",
                         "1", "-c:a", "pcm_s16le", path], check=True)
         with open(path, "rb") as file:
             whole = file.read()
@@ -77,7 +78,8 @@ class Sound(unittest.TestCase):
 
     def chunked(self, path, blocks, kind):
         connection = http.client.HTTPConnection("127.0.0.1", self.server.port, timeout=60)
-        connection.request("POST", path, body=iter(blocks), headers={"Content-Type": kind}, encode_chunked=True)
+        connection.request("POST", path, body=iter(blocks), headers={"Content-Type": kind},
+            encode_chunked=True)
         answer = connection.getresponse()
         return answer.status, json.loads(answer.read())
 
@@ -90,8 +92,10 @@ class Sound(unittest.TestCase):
         for at in range(0, len(self.samples), step):
             owner.send(self.samples[at:at + step])
         owner.send('{"done": true}')
-        self.assertTrue(until(lambda: told.names("queued") and len(told.names("queued")) == len(told.names("done")) and
-                              told.names("done")[-1]["time"] - told.names("started")[0]["time"] > self.seconds - 0.5))
+        self.assertTrue(until(lambda: told.names("queued")
+            and len(told.names("queued")) == len(told.names("done")) and
+                              told.names("done")[-1]["time"] - told.names("started")[0][
+                              "time"] > self.seconds - 0.5))
         self.assertEqual({event["id"] for event in told.names("done")}, {"greeting"})
         self.assertEqual(told.names("cancelled"), [])
         self.assertEqual(told.names("error"), [])
@@ -99,7 +103,8 @@ class Sound(unittest.TestCase):
         self.assertAlmostEqual(spoken, self.seconds, delta=0.35)
         self.assertGreater(opened(viewer.planes), 60)
         owner.send("And now a text.")
-        self.assertTrue(until(lambda: any(e["text"] == "And now a text." for e in told.names("started"))))
+        self.assertTrue(until(lambda: any(e["text"] == "And now a text." for e
+            in told.names("started"))))
         owner.send('{"do": "stop"}')
         self.assertTrue(told.until("stopped"))
 
@@ -160,7 +165,8 @@ class Sound(unittest.TestCase):
         import socket as sockets
         for body in [b"zz\r\nHello", b"5\r\nHelloX\r\n0\r\n\r\n", b"ffffffffff\r\n", b"\r\n\r\n"]:
             raw = sockets.create_connection(("127.0.0.1", self.server.port), 30)
-            raw.sendall(b"POST /heads/dot/say HTTP/1.1\r\nHost: 127.0.0.1\r\nTransfer-Encoding: chunked\r\n\r\n" + body)
+            raw.sendall(
+                b"POST /heads/dot/say HTTP/1.1\r\nHost: 127.0.0.1\r\nTransfer-Encoding: chunked\r\n\r\n" + body)
             raw.settimeout(30)
             self.assertNotIn(b"202", raw.recv(4096).split(b"\r\n")[0])
             raw.close()
@@ -170,18 +176,23 @@ class Sound(unittest.TestCase):
         told = self.make("eve", '{"voice_rate": 24000}')
         sound = base64.b64encode(self.samples[:RATE * 2]).decode()
         pieces = [{"utterance": "u1", "audio": sound, "sample_rate": RATE, "id": "u1"},
-                  {"utterance": "u1", "words": [{"word": "one", "start": 0.1, "end": 0.6}], "done": True}]
+                  {"utterance": "u1", "words": [{"word": "one", "start": 0.1, "end": 0.6}],
+                  "done": True}]
         status, answer = self.server.json("/heads/eve/say", "POST", json.dumps(pieces))
         self.assertEqual((status, answer["ids"][0]), (202, "u1"))
         self.assertTrue(told.until("done"))
         # A text has no sound: it is spoken by the voice. Members that nobody knows are named.
-        self.assertEqual(self.server.ask("/heads/eve/say", "POST", '{"text": "Hello", "id": "b"}')[0], 202)
-        status, answer = self.server.json("/heads/eve/say", "POST", '{"text": "Hello", "colour": "red"}')
+        self.assertEqual(self.server.ask("/heads/eve/say", "POST",
+            '{"text": "Hello", "id": "b"}')[0], 202)
+        status, answer = self.server.json("/heads/eve/say", "POST",
+            '{"text": "Hello", "colour": "red"}')
         self.assertEqual(status, 400)
         self.assertIn("colour", answer["error"])
         # Files are those of the server: nobody gets at them.
-        self.server.ask("/heads/eve/say", "POST", json.dumps({"file": os.path.join(SAMPLES, "voice.wav"), "id": "f"}))
-        self.assertTrue(until(lambda: any(e["id"] == "f" and "base64" in e["why"] for e in told.names("cancelled"))))
+        self.server.ask("/heads/eve/say", "POST",
+            json.dumps({"file": os.path.join(SAMPLES, "voice.wav"), "id": "f"}))
+        self.assertTrue(until(lambda: any(e["id"] == "f" and "base64" in e["why"] for e
+            in told.names("cancelled"))))
 
     def test_what_is_not_spoken_yet_is_for_the_owner(self):
         viewer = self.make("fay")
@@ -202,9 +213,11 @@ class Changes(unittest.TestCase):
         server.ask("/heads/anna", "PUT", '{"lang": "en", "seed": 3}')
         viewer = Told(Socket(server.port, "/heads/anna/faps"))
         said = Told(Socket(server.port, "/heads/anna/say"))
-        server.ask("/heads/anna/say", "POST", "I am being changed while I speak, and nobody notices.")
+        server.ask("/heads/anna/say", "POST",
+            "I am being changed while I speak, and nobody notices.")
         self.assertTrue(said.until("started"))
-        self.assertEqual(server.json("/heads/anna", "PATCH", '{"lang": "de", "mood": "joy:0.5"}')[0], 200)
+        self.assertEqual(server.json("/heads/anna", "PATCH",
+            '{"lang": "de", "mood": "joy:0.5"}')[0], 200)
         settings = server.json("/heads/anna")[1]["settings"]
         self.assertEqual((settings["lang"], settings["seed"]), ("de", 3))
         self.assertTrue(said.until("done"))
@@ -218,7 +231,8 @@ class Changes(unittest.TestCase):
         self.assertEqual((settings["lang"], settings["seed"], settings["quant"]), ("en", 1, 3))
         again = Socket(server.port, "/heads/anna/faps")
         self.assertIn("faps", json.loads(again.next()))
-        for wrong in ['{"tts": "none"}', '{"head": "none"}', '{"lang": "no such"}', '{"model": "x"}']:
+        for wrong in ['{"tts": "none"}', '{"head": "none"}', '{"lang": "no such"}',
+            '{"model": "x"}']:
             self.assertEqual(server.ask("/heads/anna", "PATCH", wrong)[0], 400, wrong)
         self.assertEqual(server.json("/heads/anna")[1]["settings"], settings)
         self.assertEqual(server.end()[0], 0)
@@ -236,18 +250,21 @@ class Changes(unittest.TestCase):
             for name in "abc":
                 self.assertEqual(server.ask("/heads/" + name, "PUT", '{"tts": "slow"}')[0], 201)
             server.ask("/heads/fast", "PUT")
-            told = {name: Told(Socket(server.port, f"/heads/{name}/say")) for name in ("a", "b", "c", "fast")}
+            told = {name: Told(Socket(server.port, f"/heads/{name}/say")) for name
+                in ("a", "b", "c", "fast")}
             begun = time.monotonic()
             for name in ("a", "b", "c", "fast"):
                 server.ask(f"/heads/{name}/say", "POST", "My mouth moves by numbers.")
             self.assertTrue(told["fast"].until("started"))
-            self.assertFalse(told["a"].names("started"))  # nobody waits for a slow voice but its head
+            # nobody waits for a slow voice but its head
+            self.assertFalse(told["a"].names("started"))
             for name in "abc":
                 self.assertTrue(told[name].until("started"), name)
             print("three voices of a second each:", round(time.monotonic() - begun, 2))
             self.assertEqual(server.end()[0], 0)
         for wrong in ["slow", "=x", "a=", "a=prog {nothing}"]:
-            done = subprocess.run([PROGRAM, "serve", "--tts", wrong], capture_output=True, timeout=60)
+            done = subprocess.run([PROGRAM, "serve", "--tts", wrong], capture_output=True,
+                timeout=60)
             self.assertEqual(done.returncode, 2, wrong)
 
 
@@ -263,7 +280,8 @@ class Viewers(unittest.TestCase):
         assert cls.server.end()[0] == 0
 
     def ticket(self, seconds=60):
-        status, told = self.server.json("/heads/anna/ticket", "POST", json.dumps({"seconds": seconds}),
+        status, told = self.server.json("/heads/anna/ticket", "POST",
+            json.dumps({"seconds": seconds}),
                                         headers=self.right)
         self.assertEqual(status, 200)
         return told
@@ -279,14 +297,16 @@ class Viewers(unittest.TestCase):
                 self.assertEqual(answers.pop()[0], 403)
             for name in ("anna", "nobody"):
                 for path in ("face", "faps", "audio"):
-                    self.assertEqual(Socket(self.server.port, f"/heads/{name}/{path}{ticket}").status, 403)
+                    self.assertEqual(Socket(self.server.port,
+                        f"/heads/{name}/{path}{ticket}").status, 403)
                 self.assertEqual(Socket(self.server.port, f"/heads/{name}/say{ticket}").status, 401)
                 offer = self.server.ask(f"/heads/{name}/whep{ticket}", "POST", "v=0", headers={
                     "Content-Type": "application/sdp"})
                 self.assertEqual(offer[0], 403)
         # What is the same for all heads is for everybody.
         for what in ("", "live.js", "live.css"):
-            self.assertEqual(self.server.ask("/heads/anna/" + what), self.server.ask("/heads/nobody/" + what))
+            self.assertEqual(self.server.ask("/heads/anna/" + what),
+                self.server.ask("/heads/nobody/" + what))
             self.assertEqual(self.server.ask("/heads/nobody/" + what)[0], 200)
         self.assertEqual(self.server.ask("/heads/anna")[0], 401)
         self.assertEqual(self.server.ask("/heads/anna/ticket", "POST", "")[0], 401)
@@ -294,26 +314,31 @@ class Viewers(unittest.TestCase):
     def test_a_ticket_opens_one_head_for_some_time(self):
         ticket = self.ticket()
         self.assertEqual(ticket["path"], "/heads/anna/?ticket=" + ticket["ticket"])
-        made = hmac.new(b"secret", f"animeme ticket\nanna\n{ticket['expires']}".encode(), hashlib.sha256).hexdigest()
+        made = hmac.new(b"secret", f"animeme ticket\nanna\n{ticket['expires']}".encode(),
+            hashlib.sha256).hexdigest()
         self.assertEqual(ticket["ticket"], f"{ticket['expires']}-{made}")
         query = "?ticket=" + ticket["ticket"]
         self.assertEqual(self.server.ask("/heads/anna/info.json" + query)[0], 200)
         self.assertEqual(self.server.ask("/heads/ben/info.json" + query)[0], 403)
         face = Socket(self.server.port, "/heads/anna/faps?binary&" + query[1:])
         self.assertEqual(face.status, 101)
-        with_token = Socket(self.server.port, "/heads/anna/faps", headers="Authorization: Bearer secret\r\n")
+        with_token = Socket(self.server.port, "/heads/anna/faps",
+            headers="Authorization: Bearer secret\r\n")
         self.assertEqual(with_token.status, 101)
         self.assertEqual(Socket(self.server.port, "/heads/nobody/faps",
                                 headers="Authorization: Bearer secret\r\n").status, 404)
         with tempfile.TemporaryDirectory() as folder:
             address = self.server.url.replace("http", "ws") + "/heads/anna/" + query
-            done = subprocess.run([PROGRAM, "receive", address, "-o", os.path.join(folder, "a.fba"), "--duration", "1"],
+            done = subprocess.run([PROGRAM, "receive", address, "-o", os.path.join(folder, "a.fba"),
+                "--duration", "1"],
                                   capture_output=True, text=True, timeout=60)
             self.assertEqual(done.returncode, 0, done.stderr)
         short = "?ticket=" + self.ticket(1)["ticket"]
         self.assertTrue(until(lambda: self.server.ask("/heads/anna/info.json" + short)[0] == 403))
-        for wrong in ['{"seconds": 0}', '{"seconds": 1e9}', '{"second": 1}', "[]", '{"seconds": "1"}']:
-            self.assertEqual(self.server.ask("/heads/anna/ticket", "POST", wrong, headers=self.right)[0], 400)
+        for wrong in ['{"seconds": 0}', '{"seconds": 1e9}', '{"second": 1}', "[]",
+            '{"seconds": "1"}']:
+            self.assertEqual(self.server.ask("/heads/anna/ticket", "POST", wrong,
+                headers=self.right)[0], 400)
 
     def test_the_list_of_heads_is_a_page(self):
         status, page = self.server.ask("/")
@@ -351,9 +376,11 @@ class Http(unittest.TestCase):
 
     def test_other_methods_are_told_which_there_are(self):
         self.server.ask("/heads/anna", "PUT")
-        for method, path, allow in [("DELETE", "/heads", "GET, HEAD"), ("PUT", "/heads/anna/say", "POST"),
+        for method, path, allow in [("DELETE", "/heads", "GET, HEAD"),
+            ("PUT", "/heads/anna/say", "POST"),
                                     ("OPTIONS", "/heads/anna", "GET, HEAD")]:
-            answer = self.raw(f"{method} {path} HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 0\r\n\r\n").lower()
+            answer = self.raw(
+                f"{method} {path} HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 0\r\n\r\n").lower()
             self.assertIn(" 405 ", answer.split("\r\n")[0])
             self.assertIn("allow: " + allow.lower() + "\r\n", answer)
 

@@ -1,7 +1,9 @@
-"""Many heads, clients of all kinds, load and redeploys.  soak_test.py PROGRAM [SECONDS [HEADS [REDEPLOYS]]]
+"""Many heads, clients of all kinds, load and redeploys.  soak_test.py PROGRAM [SECONDS [HEADS
+[REDEPLOYS]]]
 
-Lines and sound are said, viewers come and go, lines are interrupted and heads change, and the server is replaced by a new
-process now and then. Every accepted line ends exactly once, viewers come back, memory stays. Times are printed, not tested."""
+Lines and sound are said, viewers come and go, lines are interrupted and heads change, and the
+server is replaced by a new process now and then. Every accepted line ends exactly once, viewers
+come back, memory stays. Times are printed, not tested."""
 
 import http.client
 import json
@@ -47,7 +49,8 @@ class Owner:
                 time.sleep(0.1)
 
     def session(self):
-        ask(f"http://127.0.0.1:{self.port}/heads/{self.name}", "PUT", json.dumps({"seed": 1}), timeout=20)
+        ask(f"http://127.0.0.1:{self.port}/heads/{self.name}", "PUT", json.dumps({"seed": 1}),
+            timeout=20)
         told = Socket(self.port, f"/heads/{self.name}/say?pcm=16000", timeout=30)
         if told.status != 101:
             return time.sleep(0.1)
@@ -74,7 +77,8 @@ class Owner:
     def act(self, told):
         what = self.random.random()
         if what < 0.45:
-            told.send(json.dumps({"do": "say", "text": "One, two, three, four, five, and so on." * self.random.randint(1, 3)}))
+            told.send(json.dumps({"do": "say",
+                "text": "One, two, three, four, five, and so on." * self.random.randint(1, 3)}))
         elif what < 0.7:
             for _ in range(5):
                 told.send(os.urandom(3200))
@@ -83,7 +87,8 @@ class Owner:
         elif what < 0.95:
             told.send('{"do": "stop"}')
         else:
-            told.send(json.dumps({"do": "mood", "mood": self.random.choice(["joy", "anger:0.3", "neutral"])}))
+            told.send(json.dumps({"do": "mood",
+                "mood": self.random.choice(["joy", "anger:0.3", "neutral"])}))
 
     def read(self, told, lines):
         while True:
@@ -159,7 +164,8 @@ def main():
             time.sleep(0.1)
             sizes.append(memory(server.process.pid))
             back = all(len(viewer.away) >= deployed for viewer in viewers)
-            if deployed < REDEPLOYS and back and time.monotonic() - begun > next_deploy * (deployed + 1):
+            if deployed < REDEPLOYS and back and time.monotonic() - begun > next_deploy * (deployed
+                + 1):
                 codes.append(server.end(signal.SIGTERM)[0])
                 server = Server(PROGRAM, *arguments, port=port)
                 deployed += 1
@@ -188,7 +194,8 @@ def main():
     assert set(codes) == {0}, codes
     assert not problems, problems[:5]
     assert accepted > HEADS, accepted
-    assert all(len(viewer.away) >= deployed for viewer in viewers), [len(viewer.away) for viewer in viewers]
+    assert all(len(viewer.away) >= deployed for viewer in viewers), [len(viewer.away) for viewer
+        in viewers]
     assert all(viewer.planes > 0 for viewer in viewers)
 
 

@@ -7,7 +7,8 @@
 //     const page = await browser.open(server.url + 'index.html');
 //     await page.wait('window.ready === true');        // any expression; 30 seconds by default
 //     const sum = await page.evaluate('1 + 1');        // an expression, or a promise of a value
-//     const same = await page.evaluate((a, b) => a + b, 1, 1);  // or a function with JSON arguments
+//     const same = await page.evaluate((a, b) => a + b, 1, 1);  // or a function with JSON
+//     arguments
 //     await page.screenshot('page.png');
 //     page.messages                                    // [{type: 'error', text: '...'}, ...]
 //     await browser.close();

@@ -1,9 +1,12 @@
-// node browser_report.js FOLDER FILE...: what Chromium makes of the media files of a folder, as JSON.
+// node browser_report.js FOLDER FILE...: what Chromium makes of the media files of a folder, as
+// JSON.
 //
-// For each file: `decoded`, what decodeAudioData() gives ({rate, length}, the samples as 32-bit floats
-// in FOLDER/FILE.f32) or {error}; `played`, how an <audio> element plays it; for .mp4 `mp4box`, what
-// mp4box in the page makes of the fetched file. Playlists (.m3u8, .mpd) have only `played`, by the
-// Shaka player, which fetches the segments and feeds the element. And `messages`, what the page said.
+// For each file: `decoded`, what decodeAudioData() gives ({rate, length}, the samples as 32-bit
+// floats in FOLDER/FILE.f32) or {error}; `played`, how an <audio> element plays it; for .mp4
+// `mp4box`, what mp4box in the page makes of the fetched file. Playlists (.m3u8, .mpd) have only
+// `played`, by the
+// Shaka player, which fetches the segments and feeds the element. And `messages`, what the page
+// said.
 'use strict';
 
 const fs = require('fs');

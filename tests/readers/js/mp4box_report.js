@@ -2,8 +2,8 @@
 //
 //     mp4boxReport(MP4Box, bytes, hex)
 //
-// bytes: ArrayBuffer; hex: function of a Uint8Array. Returns what JSON can hold: brands, tracks with
-// their samples, the initial object descriptor.
+// bytes: ArrayBuffer; hex: function of a Uint8Array. Returns what JSON can hold: brands, tracks
+// with their samples, the initial object descriptor.
 'use strict';
 
 // Hex of a box as it stands in the file, header included; null: there is none.

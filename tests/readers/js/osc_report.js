@@ -1,4 +1,5 @@
-// node osc_report.js < HEX: messages of OSC packets, one packet a line in hexadecimal, as JSON, one a line.
+// node osc_report.js < HEX: messages of OSC packets, one packet a line in hexadecimal, as JSON, one
+// a line.
 'use strict';
 
 const fs = require('fs');

@@ -18,7 +18,8 @@ const TYPES = {
   '.json': 'application/json', '.svg': 'image/svg+xml', '.png': 'image/png',
   '.glb': 'model/gltf-binary', '.wasm': 'application/wasm',
   '.mp4': 'video/mp4', '.m4a': 'audio/mp4', '.m4s': 'video/iso.segment', '.mkv': 'video/x-matroska',
-  '.mka': 'audio/x-matroska', '.webm': 'video/webm', '.opus': 'audio/ogg', '.wav': 'audio/wav', '.ts': 'video/mp2t',
+  '.mka': 'audio/x-matroska', '.webm': 'video/webm', '.opus': 'audio/ogg', '.wav': 'audio/wav',
+      '.ts': 'video/mp2t',
   '.m3u8': 'application/vnd.apple.mpegurl', '.mpd': 'application/dash+xml',
 };
 

@@ -1,4 +1,5 @@
-// blocks_test.mjs PACKAGE BLOCKS SOURCE: the JavaScript examples of the pages, with the variables that they use.
+// blocks_test.mjs PACKAGE BLOCKS SOURCE: the JavaScript examples of the pages, with the variables
+// that they use.
 import assert from 'node:assert/strict';
 import {existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {createRequire} from 'node:module';
@@ -15,7 +16,8 @@ async function run(file, names, results) {
   const code = readFileSync(join(blocks, file), 'utf8').replace(/^import .*;$/gm, '');
   const scope = {...animeme, ...names};
   const AsyncFunction = (async () => {}).constructor;
-  return new AsyncFunction(...Object.keys(scope), `${code}\nreturn {${results}};`)(...Object.values(scope));
+  return new AsyncFunction(...Object.keys(scope),
+      `${code}\nreturn {${results}};`)(...Object.values(scope));
 }
 
 const file = (name) => readFileSync(join(samples, name));
@@ -28,7 +30,8 @@ assert(jaw >= 0 && jaw <= 1);
 
 const jaws = [], sets = [];
 const {track} = await run('tools_bindings_npm_README_md.js.1.inc', {
-  bytes: new Uint8Array(file('talk.fba')), fetch: fetched, jaw: (time, value) => jaws.push([time, value]),
+  bytes: new Uint8Array(file('talk.fba')), fetch: fetched,
+      jaw: (time, value) => jaws.push([time, value]),
   set: (names, weights) => sets.push([names.length, weights.length]),
 }, 'track');
 assert(jaws.length > 10 && jaws.some(([, value]) => value > 0));

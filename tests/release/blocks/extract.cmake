@@ -1,8 +1,11 @@
-# extract_blocks(OUT): writes the fenced code blocks of all pages below PROJECT_SOURCE_DIR into OUT, one file each, and
+# extract_blocks(OUT): writes the fenced code blocks of all pages below PROJECT_SOURCE_DIR into OUT,
+# one file each, and
 # OUT/list.txt with a line "PAGE LANGUAGE N FILE" for each of them.
 function(extract_blocks out)
-  file(GLOB_RECURSE pages RELATIVE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/fap/*.md ${PROJECT_SOURCE_DIR}/codec/*.md
-    ${PROJECT_SOURCE_DIR}/dam/*.md ${PROJECT_SOURCE_DIR}/conformance/*.md ${PROJECT_SOURCE_DIR}/tools/*.md
+  file(GLOB_RECURSE pages RELATIVE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/fap/*.md
+    ${PROJECT_SOURCE_DIR}/codec/*.md
+    ${PROJECT_SOURCE_DIR}/dam/*.md ${PROJECT_SOURCE_DIR}/conformance/*.md
+    ${PROJECT_SOURCE_DIR}/tools/*.md
     ${PROJECT_SOURCE_DIR}/tests/*.md)
   list(APPEND pages README.md HACKING.md)
   list(FILTER pages EXCLUDE REGEX "node_modules")
@@ -36,7 +39,8 @@ function(extract_blocks out)
         file(CONFIGURE OUTPUT ${out}/${file} CONTENT "${block}" @ONLY)
         string(APPEND list "${page} ${language} ${count_${language}} ${file}\n")
         set(language "")
-      elseif(NOT language STREQUAL "" AND NOT (language MATCHES "^c(pp)?$" AND line MATCHES "^#include"))
+      elseif(NOT language STREQUAL "" AND NOT (language MATCHES "^c(pp)?$"
+        AND line MATCHES "^#include"))
         string(APPEND block "${line}\n")
       endif()
     endforeach()

@@ -1,7 +1,8 @@
 #!/bin/sh
-# clean_root.sh FOLDER COMMAND...: runs COMMAND where g++, cmake and ninja are installed as ever, and of the
-# development files of all other packages nothing: no headers, no libraries to link, no modules of CMake or pkg-config.
-# FOLDER is for its links. Exits with 77 where that cannot be had: without dpkg, or without user namespaces.
+# clean_root.sh FOLDER COMMAND...: runs COMMAND where g++, cmake and ninja are installed as ever,
+# and of the development files of all other packages nothing: no headers, no libraries to link, no
+# modules of CMake or pkg-config. FOLDER is for its links. Exits with 77 where that cannot be had:
+# without dpkg, or without user namespaces.
 set -eu
 folder=$1
 shift
@@ -16,7 +17,8 @@ lib=/usr/lib/$(dpkg-architecture -qDEB_HOST_MULTIARCH 2>/dev/null || gcc -print-
 rm -rf "$folder"
 mkdir -p "$folder/include" "$folder/lib" "$folder/empty" "$folder/all/include" "$folder/all/lib"
 # What these packages stand on, with all of their files.
-apt-cache depends --recurse --installed --no-recommends --no-suggests --no-conflicts --no-breaks --no-replaces \
+apt-cache depends --recurse --installed --no-recommends --no-suggests --no-conflicts --no-breaks \
+  --no-replaces \
   --no-enhances g++ cmake ninja-build | grep '^[a-z]' | sort -u >"$folder/packages"
 # shellcheck disable=SC2046  # one package a word
 dpkg -L $(cat "$folder/packages") 2>/dev/null | sed 's|^/lib/|/usr/lib/|' | sort -u >"$folder/files"

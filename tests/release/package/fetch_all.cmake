@@ -1,5 +1,6 @@
-# A foreign project that fetches all of animeme: it knows COMPONENTS (by commas) and their headers, and builds none of
-# them by itself. With -DLINK=ON its programs are built and run, too, which compiles all of animeme once more:
+# A foreign project that fetches all of animeme: it knows COMPONENTS (by commas) and their headers,
+# and builds none of them by itself. With -DLINK=ON its programs are built and run, too, which
+# compiles all of animeme once more:
 # tests/run.sh elsewhere.
 include(${CMAKE_CURRENT_LIST_DIR}/steps.cmake)
 step("configure" ${configure} -S ${TESTS}/fetched_all -B ${WORK}/build -DANIMEME_DIR=${ANIMEME_DIR}

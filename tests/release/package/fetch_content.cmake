@@ -1,5 +1,6 @@
-# Builds, runs and installs a foreign project that fetches animeme, with Eigen hidden: only what its program needs is
-# compiled, all of it by the compiler launcher that it chose, and only the program is installed.
+# Builds, runs and installs a foreign project that fetches animeme, with Eigen hidden: only what its
+# program needs is compiled, all of it by the compiler launcher that it chose, and only the program
+# is installed.
 include(${CMAKE_CURRENT_LIST_DIR}/steps.cmake)
 file(WRITE ${WORK}/launcher "#!/bin/sh\necho \"$*\" >>'${WORK}/log'\nexec ${LAUNCHER} \"$@\"\n")
 file(CHMOD ${WORK}/launcher PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE)
@@ -16,12 +17,14 @@ foreach(command IN LISTS compiled)
   string(REGEX REPLACE "^.* -o ([^ ]*) .*$" "\\1" object "${command}")
   list(APPEND objects ${object})
 endforeach()
-set(expected "_deps/animeme-build/codec/|_deps/animeme-build/fap/CMakeFiles/animeme_fap|CMakeFiles/consumer.dir/")
+set(expected
+  "_deps/animeme-build/codec/|_deps/animeme-build/fap/CMakeFiles/animeme_fap|CMakeFiles/consumer.dir/")
 set(others ${objects})
 list(FILTER others EXCLUDE REGEX "^(${expected})")
 list(LENGTH objects count)
 if(others OR count LESS 3)
-  message(FATAL_ERROR "compiled by the launcher, where fap, codec and the consumer were expected: ${objects}")
+  message(FATAL_ERROR
+    "compiled by the launcher, where fap, codec and the consumer were expected: ${objects}")
 endif()
 
 file(GLOB_RECURSE programs ${WORK}/build/consumer ${WORK}/build/*/consumer)

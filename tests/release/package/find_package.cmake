@@ -1,5 +1,5 @@
-# Builds and runs programs of others that find COMPONENTS (by commas) of the installed animeme, each without the
-# packages that it does not need.
+# Builds and runs programs of others that find COMPONENTS (by commas) of the installed animeme, each
+# without the packages that it does not need.
 include(${CMAKE_CURRENT_LIST_DIR}/steps.cmake)
 step("configure" ${configure} -S ${TESTS}/consumer -B ${WORK}/build -DCMAKE_PREFIX_PATH=${PREFIX}
   -DCOMPONENTS=${COMPONENTS})

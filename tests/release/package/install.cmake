@@ -7,7 +7,8 @@ if(output MATCHES "Warning|Not built")
 endif()
 # Names of components are no names of variables.
 foreach(component fba text)
-  step("install ${component}" ${CMAKE_COMMAND} --install ${BINARY_DIR} --prefix ${WORK}/parts --component ${component})
+  step("install ${component}" ${CMAKE_COMMAND} --install ${BINARY_DIR} --prefix ${WORK}/parts
+    --component ${component})
   if(output MATCHES "Warning")
     message(FATAL_ERROR "component ${component}:\n${output}")
   endif()
@@ -22,7 +23,8 @@ if(headers OR count EQUAL 0)
   message(FATAL_ERROR "${count} headers, internal ones among them: ${headers}")
 endif()
 
-# What is found is found on the machine of the user: no folder of this one. "/../" leads up from where a file lies.
+# What is found is found on the machine of the user: no folder of this one. "/../" leads up from
+# where a file lies.
 file(GLOB_RECURSE files ${PREFIX}/*.cmake)
 foreach(file IN LISTS files)
   file(STRINGS ${file} lines REGEX "(^|[^A-Za-z0-9_.}/>])/[A-Za-z]")

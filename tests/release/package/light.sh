@@ -1,6 +1,6 @@
 #!/bin/sh
-# The program alone is light: it is linked with the C++ library and small libraries only, works on streams without its
-# modules, and names the Debian packages to install where it needs one.
+# The program alone is light: it is linked with the C++ library and small libraries only, works on
+# streams without its modules, and names the Debian packages to install where it needs one.
 #   light.sh BIN_DIR WORK_DIR
 # WORK_DIR is made anew.
 set -eu
@@ -53,18 +53,21 @@ cp "$bin/animeme_espeak.so" .
 if ./animeme speak --text hello -o voiced.fba 2>said; then
   ! grep -q 'apt install' said || fail "$(cat said)"
   ./animeme speak --lang de --text Grüße -o voiced.fba 2>said
-  grep -q 'warning: .*apt install.* libicu72\b' said || fail "no warning that ICU is missing: $(cat said)"
+  grep -q 'warning: .*apt install.* libicu72\b' said ||
+    fail "no warning that ICU is missing: $(cat said)"
 fi
 rm animeme_espeak.so
 
 # The packages that are named bring all that the modules are linked with.
 for module in "$bin"/animeme_*.so; do
   name=$(basename "$module")
-  packages=$(./animeme --version --verbose | sed -n "s/^  $name .*: not found: apt install \([^(]*\) (.*/\1/p")
+  packages=$(./animeme --version --verbose |
+    sed -n "s/^  $name .*: not found: apt install \([^(]*\) (.*/\1/p")
   [ -n "$packages" ] || fail "--version --verbose does not say what $name needs"
   grep -qs '^PRETTY_NAME="Debian GNU/Linux 12' /etc/os-release || continue
   # shellcheck disable=SC2086  # words
-  apt-cache depends --recurse --installed --no-recommends --no-suggests --no-conflicts --no-breaks --no-replaces \
+  apt-cache depends --recurse --installed --no-recommends --no-suggests --no-conflicts --no-breaks \
+    --no-replaces \
     --no-enhances $packages libstdc++6 2>/dev/null | grep '^[a-z]' >closure || continue
   for object in $(needed "$module"); do
     path=$(ldd "$module" | sed -n "s|.*$object => \(/[^ ]*\) .*|\1|p")

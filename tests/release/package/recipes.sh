@@ -1,6 +1,7 @@
 #!/bin/sh
-# The recipes of packages are true to the tree, without building any: one version everywhere, every installed file in
-# one Debian package, the names of the symbols file, scripts, YAML and JSON that parse, a port whose options exist.
+# The recipes of packages are true to the tree, without building any: one version everywhere, every
+# installed file in one Debian package, the names of the symbols file, scripts, YAML and JSON that
+# parse, a port whose options exist.
 #   recipes.sh SOURCE_DIR PREFIX LIBDIR VERSION CMAKE
 # What is not here to check with (python3-yaml, ruby, dpkg-dev) is left out, and said.
 set -eu
@@ -26,12 +27,14 @@ sed -n 's/^ \(animeme_[a-z0-9_]*\)@ANIMEME_0 .*/\1/p' "$debian/libanimeme0.symbo
   diff "$tree/tests/bindings/c/exported.txt" - ||
   fail "libanimeme0.symbols and tests/bindings/c/exported.txt differ"
 sed -n 's/.*@ANIMEME_0 //p' "$debian/libanimeme0.symbols" | sort -uV | tail -1 >"$work/newest"
-printf '%s\n%s\n' "$(cat "$work/newest")" "$version" | sort -VC || fail "a symbol is newer than $version"
+printf '%s\n%s\n' "$(cat "$work/newest")" "$version" | sort -VC ||
+  fail "a symbol is newer than $version"
 
-# Every package of debian/control has its list, every list its package, and every installed file one of them. Debian has
-# other folders for its libraries, its module of Python and completions of zsh.
+# Every package of debian/control has its list, every list its package, and every installed file one
+# of them. Debian has other folders for its libraries, its module of Python and completions of zsh.
 sed -n 's/^Package: //p' "$debian/control" | sort >"$work/packages"
-for list in "$debian"/*.install; do basename "$list" .install; done | sort | diff "$work/packages" - ||
+for list in "$debian"/*.install; do basename "$list" .install; done | sort |
+  diff "$work/packages" - ||
   fail "debian/control has other packages than debian/*.install"
 (cd "$prefix" && find . \( -type f -o -type l \) |
   sed "s|^\./$libdir/|usr/lib/triplet/|; s|^\./|usr/|; s|^usr/lib/triplet/python|usr/lib/python|
@@ -48,21 +51,25 @@ while read -r file; do
   [ "$(echo "$takers" | wc -w)" = 1 ] || fail "$file is in ${takers:-no package}"
 done <"$work/files"
 
-# Scripts parse; those that debian/tests/control names are there, and no others but that for roots without recommended packages.
+# Scripts parse; those that debian/tests/control names are there, and no others but that for roots
+# without recommended packages.
 for script in "$packaging"/*.sh "$debian"/tests/[a-z]*; do
   case $(basename "$script") in control) continue ;; esac
   [ -x "$script" ] || fail "$script cannot be run"
   case $(head -1 "$script") in *bash) bash -n "$script" ;; *) sh -n "$script" ;; esac
 done
 sed -n 's/^Tests: //p' "$debian/tests/control" | tr -d , | xargs -n1 | sort >"$work/named"
-find "$debian/tests" -type f ! -name control ! -name without_recommends -printf '%f\n' | sort | diff "$work/named" - ||
+find "$debian/tests" -type f ! -name control ! -name without_recommends -printf '%f\n' | sort |
+  diff "$work/named" - ||
   fail "debian/tests/control names others"
 if command -v dpkg-parsechangelog >/dev/null; then
   dpkg-parsechangelog -l "$debian/changelog" >/dev/null
   mkdir "$work/debian"
   cp "$debian/control" "$work/debian"
-  (cd "$work" && dpkg-checkbuilddeps 2>&1 | grep -v 'Unmet build dep' | grep .) && fail "debian/control does not parse"
-  make -s -n -C "$tree" -f "$debian/rules" override_dh_auto_configure >/dev/null || fail "debian/rules does not parse"
+  (cd "$work" && dpkg-checkbuilddeps 2>&1 | grep -v 'Unmet build dep' | grep .) &&
+    fail "debian/control does not parse"
+  make -s -n -C "$tree" -f "$debian/rules" override_dh_auto_configure >/dev/null ||
+    fail "debian/rules does not parse"
 else
   echo "dpkg-dev is missing: changelog and rules are not parsed"
 fi
@@ -101,10 +108,12 @@ cat "$packaging"/homebrew/*.rb "$packaging"/vcpkg/animeme/portfile.cmake "$debia
     echo "$option" >>"$work/unknown"
 done
 # Python's room brings its option with it.
-[ -d "$tree/tools/bindings/python" ] || sed -i /ANIMEME_BUILD_PYTHON/d "$work/unknown" 2>/dev/null || true
+[ -d "$tree/tools/bindings/python" ] ||
+  sed -i /ANIMEME_BUILD_PYTHON/d "$work/unknown" 2>/dev/null || true
 [ ! -s "$work/unknown" ] || fail "no options of CMake: $(cat "$work/unknown")"
 
 # The port with vcpkg's functions played by others: it configures the codec and the models.
-"$cmake" -DTREE="$tree" -DWORK="$work/port" -P "$(dirname "$0")/vcpkg_port.cmake" >"$work/log" 2>&1 ||
+"$cmake" -DTREE="$tree" -DWORK="$work/port" -P "$(dirname "$0")/vcpkg_port.cmake" >"$work/log" \
+  2>&1 ||
   { cat "$work/log"; exit 1; }
 echo "$(wc -l <"$work/files") files in $(wc -l <"$work/packages") packages"

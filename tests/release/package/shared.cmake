@@ -1,23 +1,29 @@
-# Builds the codec as shared libraries, installs and moves them: each says its version in its name and finds the others
-# where it lies, none shows what is internal, and a program of others runs with them.
+# Builds the codec as shared libraries, installs and moves them: each says its version in its name
+# and finds the others where it lies, none shows what is internal, and a program of others runs with
+# them.
 include(${CMAKE_CURRENT_LIST_DIR}/steps.cmake)
-step("configure" ${configure} -S ${ANIMEME_DIR} -B ${WORK}/build -DBUILD_SHARED_LIBS=ON -DANIMEME_BUILD_DAM=OFF
+step("configure" ${configure} -S ${ANIMEME_DIR} -B ${WORK}/build -DBUILD_SHARED_LIBS=ON
+  -DANIMEME_BUILD_DAM=OFF
   -DANIMEME_BUILD_TOOLS=OFF -DANIMEME_BUILD_C=OFF -DANIMEME_BUILD_TESTS=OFF
   -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=16
   -DCMAKE_INSTALL_LIBDIR=lib)
 step("build" ${CMAKE_COMMAND} --build ${WORK}/build --target animeme_fba --parallel 2)
 foreach(component fap fba package)
-  step("install ${component}" ${CMAKE_COMMAND} --install ${WORK}/build --prefix ${WORK}/made --component ${component})
+  step("install ${component}" ${CMAKE_COMMAND} --install ${WORK}/build --prefix ${WORK}/made
+    --component ${component})
 endforeach()
 file(RENAME ${WORK}/made ${WORK}/installed)
 
 # Of a tree that is built in part, an installation has what is built, and says what is not.
 step("install what is built" ${CMAKE_COMMAND} --install ${WORK}/build --prefix ${WORK}/part)
-if(NOT output MATCHES "Not built, so not installed: library head" OR NOT EXISTS ${WORK}/part/lib/cmake/animeme/animeme-fba.cmake
-    OR EXISTS ${WORK}/part/lib/cmake/animeme/animeme-head.cmake OR EXISTS ${WORK}/part/include/animeme/head)
+if(NOT output MATCHES "Not built, so not installed: library head"
+  OR NOT EXISTS ${WORK}/part/lib/cmake/animeme/animeme-fba.cmake
+    OR EXISTS ${WORK}/part/lib/cmake/animeme/animeme-head.cmake
+    OR EXISTS ${WORK}/part/include/animeme/head)
   message(FATAL_ERROR "the library head was left out of the build:\n${output}")
 endif()
-execute_process(COMMAND ${CMAKE_COMMAND} --install ${WORK}/build --prefix ${WORK}/part --component head
+execute_process(COMMAND ${CMAKE_COMMAND} --install ${WORK}/build --prefix ${WORK}/part
+  --component head
   RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
 if(status EQUAL 0 OR NOT output MATCHES "head is not built")
   message(FATAL_ERROR "a component that is not built was installed:\n${output}")
@@ -35,7 +41,8 @@ foreach(library fap fba)
   string(FIND "${output}" "path: [$ORIGIN" beside)
   string(FIND "${output}" "${WORK}" built)
   if(beside LESS 0 OR built GREATER_EQUAL 0)
-    message(FATAL_ERROR "${file} does not find its neighbours, or finds them where it was built:\n${output}")
+    message(FATAL_ERROR
+      "${file} does not find its neighbours, or finds them where it was built:\n${output}")
   endif()
 endforeach()
 step("names of fba" nm -DC --defined-only ${WORK}/installed/lib/libanimeme_fba.so)
@@ -54,6 +61,7 @@ find_package(animeme REQUIRED COMPONENTS fba)
 add_executable(user ${TESTS}/consumer/fba.cpp)
 target_link_libraries(user PRIVATE animeme::fba)
 ")
-step("configure a user" ${configure} -S ${WORK}/user -B ${WORK}/user/build -DCMAKE_PREFIX_PATH=${WORK}/installed)
+step("configure a user" ${configure} -S ${WORK}/user -B ${WORK}/user/build
+  -DCMAKE_PREFIX_PATH=${WORK}/installed)
 step("build a user" ${CMAKE_COMMAND} --build ${WORK}/user/build)
 step("run a user" ${WORK}/user/build/user)

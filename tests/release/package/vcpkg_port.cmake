@@ -1,5 +1,6 @@
-# Runs tools/release/packaging/vcpkg/animeme/portfile.cmake with stand-ins for the functions of vcpkg: configures, for archives
-# and for shared libraries, and fails if an option that it gives is not known to the tree.
+# Runs tools/release/packaging/vcpkg/animeme/portfile.cmake with stand-ins for the functions of
+# vcpkg: configures, for archives and for shared libraries, and fails if an option that it gives is
+# not known to the tree.
 cmake_minimum_required(VERSION 3.25)
 function(vcpkg_check_features)
   cmake_parse_arguments(PARSE_ARGV 0 arg "" "OUT_FEATURE_OPTIONS" "FEATURES")
@@ -16,8 +17,10 @@ function(vcpkg_cmake_configure)
   if(VCPKG_LIBRARY_LINKAGE STREQUAL "dynamic")
     set(shared ON)
   endif()
-  execute_process(COMMAND ${CMAKE_COMMAND} -S ${arg_SOURCE_PATH} -B ${WORK}/${VCPKG_LIBRARY_LINKAGE} -G Ninja
-    -DBUILD_SHARED_LIBS=${shared} ${arg_OPTIONS} OUTPUT_VARIABLE said ERROR_VARIABLE said COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${CMAKE_COMMAND} -S ${arg_SOURCE_PATH} -B ${WORK}/${VCPKG_LIBRARY_LINKAGE}
+    -G Ninja
+    -DBUILD_SHARED_LIBS=${shared} ${arg_OPTIONS} OUTPUT_VARIABLE said ERROR_VARIABLE said
+    COMMAND_ERROR_IS_FATAL ANY)
   if(said MATCHES "were not used")
     message(FATAL_ERROR "${said}")
   endif()

@@ -1,7 +1,7 @@
 #!/bin/sh
-# The steps of README.md in a row, as a reader takes them in a fresh clone, which is the current folder: hello.sh, the
-# commands that show hello.mp4, an installation, a program of the reader's own that uses it. With "all" also the tests
-# and what the README does after them.
+# The steps of README.md in a row, as a reader takes them in a fresh clone, which is the current
+# folder: hello.sh, the commands that show hello.mp4, an installation, a program of the reader's own
+# that uses it. With "all" also the tests and what the README does after them.
 #   steps.sh [all]
 set -eu
 [ -x tools/hello.sh ] && [ -f README.md ] || { echo "run it at the top of a clone"; exit 2; }
@@ -37,7 +37,8 @@ while read -r command; do
 done <"$work/commands"
 cksum hello.mp4 | cmp - "$work/hello" || fail "a command that reads hello.mp4 has written it"
 
-# installed PREFIX: whether what is installed there works; a program that uses the codec is built with it.
+# installed PREFIX: whether what is installed there works; a program that uses the codec is built
+# with it.
 installed() {
   step "cmake --install build/release --prefix $1"
   cmake --install build/release --prefix "$1" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
@@ -57,7 +58,8 @@ target_link_libraries(app PRIVATE animeme::fba)
 PROJECT
   cp tests/release/package/consumer/fba.cpp "$work/project/app.cpp"
   cmake -S "$work/project" -B "$work/project/build" -DCMAKE_PREFIX_PATH="$1" >"$work/log" &&
-    cmake --build "$work/project/build" >>"$work/log" && "$work/project/build/app" || { cat "$work/log"; exit 1; }
+    cmake --build "$work/project/build" >>"$work/log" && "$work/project/build/app" ||
+      { cat "$work/log"; exit 1; }
 }
 
 says "cmake --install build/release --prefix"
@@ -73,7 +75,8 @@ if [ "${1:-}" = all ]; then
   step tests/run.sh
   tests/run.sh
   cksum hello.mp4 | cmp - "$work/hello" || fail "tests have written hello.mp4"
-  [ ! -d .git ] || [ -z "$(git status --porcelain)" ] || fail "git sees changes: $(git status --porcelain)"
+  [ ! -d .git ] || [ -z "$(git status --porcelain)" ] ||
+    fail "git sees changes: $(git status --porcelain)"
   installed "$work/second"
   step cmake --build build/release
   cmake --build build/release >"$work/log" || { tail -30 "$work/log"; exit 1; }

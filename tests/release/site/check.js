@@ -1,6 +1,7 @@
-// node check.js SITE [PART]: opens every page of a folder in Chromium. Links have to lead to a file and, behind #, to
-// something with that name; nothing may come from elsewhere; axe-core has to find nothing wrong. With PART: only pages
-// whose name has it. Exit code 1: something is wrong, 77: skipped.
+// node check.js SITE [PART]: opens every page of a folder in Chromium. Links have to lead to a file
+// and, behind #, to something with that name; nothing may come from elsewhere; axe-core has to find
+// nothing wrong. With PART: only pages whose name has it. Exit code 1: something is wrong, 77:
+// skipped.
 'use strict';
 
 const fs = require('fs');
@@ -10,10 +11,13 @@ const {serve} = require('../../readers/js/server');
 
 // In the page: where it leads and what it has.
 function look() {
-  const links = [...document.querySelectorAll('a[href], link[href], script[src], img[src], iframe[src]')].map((item) => ({
+  const links =
+      [...document.querySelectorAll('a[href], link[href], script[src], img[src], iframe[src]')].map(
+      (item) => ({
     to: item.href || item.src, loads: item.tagName !== 'A' && item.rel !== 'canonical',
   }));
-  const names = [...document.querySelectorAll('[id], a[name]')].flatMap((item) => [item.id, item.name || '']);
+  const names = [...document.querySelectorAll('[id], a[name]')].flatMap((item) => [item.id,
+      item.name || '']);
   return {links, names, title: document.title};
 }
 
@@ -24,7 +28,8 @@ function has_content() {
 async function axe(whole) {
   const where = whole ? document : document.querySelector('.md-content');
   const {violations} = await window.axe.run(where, {resultTypes: ['violations']});
-  return violations.map(({id, nodes}) => ({id, count: nodes.length, first: nodes[0].html.slice(0, 160),
+  return violations.map(({id, nodes}) => ({id, count: nodes.length,
+      first: nodes[0].html.slice(0, 160),
     why: nodes[0].failureSummary.split('\n').slice(1, 2).join(' ').trim()}));
 }
 
@@ -39,9 +44,11 @@ async function main() {
   const folder = path.resolve(process.argv[2]), part = process.argv[3] || '';
   let source;
   try {
-    source = fs.readFileSync(require.resolve('../../readers/js/node_modules/axe-core/axe.min.js'), 'utf8');
+    source = fs.readFileSync(require.resolve('../../readers/js/node_modules/axe-core/axe.min.js'),
+        'utf8');
   } catch (error) {
-    console.log('site: Skipped\naxe-core is missing (npm ci in tests/readers/js; tools/setup.sh full does it)');
+    console.log(
+        'site: Skipped\naxe-core is missing (npm ci in tests/readers/js; tools/setup.sh full does it)');
     return 77;
   }
   const server = await serve({'/': folder});
@@ -56,9 +63,11 @@ async function main() {
       seen.set(name, await page.evaluate(look));
       await page.evaluate(source + '; true');
       // What surrounds a page is the same in all folders; it has hundreds of links.
-      const whole = path.basename(name) === 'index.html' || !name.includes('/') || !(await page.evaluate(has_content));
+      const whole = path.basename(name) === 'index.html' || !name.includes('/') ||
+          !(await page.evaluate(has_content));
       for (const violation of await page.evaluate(axe, whole)) {
-        wrong.push(`${name}: axe ${violation.id} (${violation.count}): ${violation.first} ${violation.why}`);
+        wrong.push(
+            `${name}: axe ${violation.id} (${violation.count}): ${violation.first} ${violation.why}`);
         rules.set(violation.id, (rules.get(violation.id) || 0) + 1);
       }
       for (const {type, text} of page.messages) {
@@ -85,7 +94,8 @@ async function main() {
       });
       if (!found) {
         wrong.push(`${name}: leads to ${target}, which is not there`);
-      } else if (place && seen.has(found) && !seen.get(found).names.includes(decodeURIComponent(place))) {
+      } else if (place && seen.has(found) &&
+          !seen.get(found).names.includes(decodeURIComponent(place))) {
         wrong.push(`${name}: leads to ${found}#${place}, where that name is missing`);
       }
     }

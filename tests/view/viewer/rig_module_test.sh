@@ -1,5 +1,6 @@
 #!/bin/sh
-# rig.wasm of the tree is what make.sh compiles: byte for byte by the same compiler; by another one the heads of
+# rig.wasm of the tree is what make.sh compiles: byte for byte by the same compiler; by another one
+# the heads of
 # RigModule.* move by it as they do in the program.
 #   rig_module_test.sh SOURCE_DIR TEST_VIEWER
 set -eu

@@ -3,12 +3,15 @@
 #
 #   sh parallel_batch.sh SHARDS MANIFEST OUT [OPTIONS of animeme batch]
 #   sh parallel_batch.sh 8 clips.tsv out --set outputs=.fba
-#   PARALLEL="--sshloginfile nodes --workdir . --jobs 1" sh parallel_batch.sh ...    # machines, one a line in "nodes"
-#   ANIMEME=/opt/animeme/bin/animeme sh parallel_batch.sh ...                        # else animeme of PATH
+#   PARALLEL="--sshloginfile nodes --workdir . --jobs 1" sh parallel_batch.sh ...    # machines, one
+#                                                                                    a line in
+#                                                                                    "nodes"
+#   ANIMEME=/opt/animeme/bin/animeme sh parallel_batch.sh ...                        # else animeme
+#                                                                                    of PATH
 #
-# On one machine `animeme batch` has all cores by itself: this is for several, which see one folder (the same
-# path). A shard that fails or is killed comes again, twice at most, and does only what is missing; so does all of
-# it when it is started again.
+# On one machine `animeme batch` has all cores by itself: this is for several, which see one folder
+# (the same path). A shard that fails or is killed comes again, twice at most, and does only what is
+# missing; so does all of it when it is started again.
 set -eu
 [ $# -ge 3 ] || { sed -n '2,/^set/s/^# \{0,1\}//p' "$0"; exit 2; }
 shards=$1 manifest=$2 out=$3

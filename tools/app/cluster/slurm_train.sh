@@ -1,15 +1,15 @@
 #!/bin/sh
-# A training as a Slurm job array: a task for the sums of each part of a corpus, and behind all of them, if
-# all went well, a job that makes the model of them.
+# A training as a Slurm job array: a task for the sums of each part of a corpus, and behind all of
+# them, if all went well, a job that makes the model of them.
 #
 #   sh slurm_train.sh MODEL.dam SUMS CORPUS... [-- OPTIONS of animeme train for the sums]
 #   sh slurm_train.sh large.dam sums corpus/a corpus/b corpus/c -- --dominance base.dam
 #   SBATCH and ANIMEME: as in slurm_batch.sh.
 #
-# CORPUS are folders that all nodes see; SUMS is a folder for the sums, one file a part, and the logs. Prints
-# the ids of both jobs, the array's first. The model is, byte for byte, that of one machine that takes all of it.
-# A task that is killed goes back into the queue and counts no sentence twice; so does all of it when it is sent
-# again.
+# CORPUS are folders that all nodes see; SUMS is a folder for the sums, one file a part, and the
+# logs. Prints the ids of both jobs, the array's first. The model is, byte for byte, that of one
+# machine that takes all of it. A task that is killed goes back into the queue and counts no
+# sentence twice; so does all of it when it is sent again.
 set -eu
 [ $# -ge 3 ] || { sed -n '2,/^set/s/^# \{0,1\}//p' "$0"; exit 2; }
 program=${ANIMEME:-animeme}
@@ -23,7 +23,8 @@ case $1 in
     while [ $# -gt 0 ] && [ "$1" != -- ]; do shift; done
     [ $# -eq 0 ] || shift
     status=0
-    "$program" train "$corpus" --accumulate "$sums/part_$SLURM_ARRAY_TASK_ID.stats" "$@" || status=$?
+    "$program" train "$corpus" --accumulate "$sums/part_$SLURM_ARRAY_TASK_ID.stats" "$@" ||
+      status=$?
     if [ $status -gt 128 ] && [ "${SLURM_RESTART_COUNT:-0}" -lt 3 ]; then
       echo "killed (status $status), again" >&2
       scontrol requeue "${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID"

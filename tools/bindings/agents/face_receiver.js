@@ -1,11 +1,14 @@
-// What a page does with the messages of FaceOutput: a line of faces on the clock of the sound's samples, and which one
-// is to be seen now. See ../README.md.
+// What a page does with the messages of FaceOutput: a line of faces on the clock of the sound's
+// samples, and which one is to be seen now. See ../README.md.
 
-/** `decoder(config)`: a UnitDecoder of the npm package; `track`: a Track of it; `delay()`: seconds from a message to the
+/**
+ * `decoder(config)`: a UnitDecoder of the npm package; `track`: a Track of it; `delay()`: seconds
+ * from a message to the
     sound that was sent with it, what the jitter buffer and the player hold; `wall()`: seconds. */
 export class FaceReceiver {
   constructor({decoder, track, delay = () => 0, wall = () => performance.now() / 1000}) {
-    Object.assign(this, {makeDecoder: decoder, track, delay, wall, decoder: null, timescale: 0, anchor: null});
+    Object.assign(this, {makeDecoder: decoder, track, delay, wall, decoder: null, timescale: 0,
+        anchor: null});
     this.gate = Infinity;  // seconds: where a segment begins whose sound does not play yet
   }
 
@@ -49,7 +52,8 @@ export class FaceReceiver {
     if (!this.decoder) return;  // not greeted yet
     const time = Number(view.getBigUint64(0)) / this.timescale, flags = bytes[12];
     const {frames} = this.track;
-    while (frames.length && frames.at(-1).time >= time - 1e-6) frames.pop();  // it replaces what was sent for later
+    // it replaces what was sent for later
+    while (frames.length && frames.at(-1).time >= time - 1e-6) frames.pop();
     if (flags & 2) this.decoder.skip();
     this.track.add(this.decoder.decode({time, intra: (flags & 1) !== 0, bytes: bytes.slice(13)}));
   }

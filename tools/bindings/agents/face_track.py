@@ -1,16 +1,19 @@
-"""A face beside the sound of an agent, timed by its samples: samples in, messages for a data channel out.
+"""A face beside the sound of an agent, timed by its samples: samples in, messages for a data
+channel out.
 
     track = FaceTrack(24000)
     for unit in track.push(samples): send(unit.message)       # while the voice is made
     for unit in track.end(): send(unit.message)               # it has said it all
-    for unit in track.cut(heard): send(unit.message)          # it was interrupted after `heard` samples
+    for unit in track.cut(heard): send(unit.message)          # it was interrupted after `heard`
+    samples
 
 Where the voice tells its phones, `say(begin, end, phone)` takes the place of push().
 
-The clock counts samples, never seconds: segment after segment of sound, and the rest behind each in which the mouth
-closes. Messages are those of /face (tools/live/web/README.md) with one tick a sample, so a time is the sample at which a
-face is to be shown. A segment begins with an intra plane of a stream of its own (object start code), and so does what
-follows a cut: a unit whose time is not behind the one before replaces all that was sent for its time and later.
+The clock counts samples, never seconds: segment after segment of sound, and the rest behind each in
+which the mouth closes. Messages are those of /face (tools/live/web/README.md) with one tick a
+sample, so a time is the sample at which a face is to be shown. A segment begins with an intra plane
+of a stream of its own (object start code), and so does what follows a cut: a unit whose time is not
+behind the one before replaces all that was sent for its time and later.
 """
 from __future__ import annotations
 
@@ -50,7 +53,8 @@ class FaceTrack:
     Raises animeme.Error where Animeme was built without ears (pocketsphinx).
     """
 
-    def __init__(self, sample_rate: int, model: Optional[animeme.Model] = None, *, rate=25, quant: int = 1,
+    def __init__(self, sample_rate: int, model: Optional[animeme.Model] = None, *, rate=25,
+        quant: int = 1,
                  intra_seconds: float = 1.0, lang: str = "en", rest: float = 0.2) -> None:
         self.sample_rate = int(sample_rate)
         self.begins = 0  # the sample of the clock at which the segment began that is or was spoken
@@ -97,24 +101,29 @@ class FaceTrack:
         return self._send(self._voice.push(samples))
 
     def say(self, begin: int, end: int, phone: str, word: str = "") -> list[Unit]:
-        """The next phone of the segment instead of its samples: from `begin` to `end`, samples of the segment; ARPAbet
+        """The next phone of the segment instead of its samples: from `begin` to `end`, samples of
+        the segment; ARPAbet
         without stress or "SIL". Gaps are silence. A segment has phones or samples, not both."""
         self.start()
         if self._script is None:
             self._script = animeme.SpeechStream(self._model, rate=self._rate)
-        return self._send(self._script.push(begin / self.sample_rate, end / self.sample_rate, phone, word))
+        return self._send(self._script.push(begin / self.sample_rate, end / self.sample_rate, phone,
+            word))
 
     def end(self) -> list[Unit]:
         """The segment is over: the rest of its face, and the mouth closes."""
-        return [] if self._over else self._send((self._script or self._voice).finish()) + self._close()
+        return [] if self._over else self._send((self._script
+            or self._voice).finish()) + self._close()
 
     def cut(self, heard: Optional[int] = None) -> list[Unit]:
-        """The segment was interrupted, also if it had ended here: the mouth closes from the face that is shown when
+        """The segment was interrupted, also if it had ended here: the mouth closes from the face
+        that is shown when
         `heard` samples of it have been played, None: from the last one that was sent."""
         if self._was_cut or not (self._faces or self.speaking):
             return []
         frame = self._frame - 1 if heard is None else self._frame_at(heard)
-        shown = self._faces[min(frame, len(self._faces) - 1)] if self._faces and frame >= 0 else np.zeros(FAPS, np.int32)
+        shown = self._faces[min(frame,
+            len(self._faces) - 1)] if self._faces and frame >= 0 else np.zeros(FAPS, np.int32)
         self._faces = [shown]
         self._frame = max(frame, -1) + 1
         self._encoder = animeme.Encoder(**self._coding)

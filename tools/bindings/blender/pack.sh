@@ -1,6 +1,6 @@
 #!/bin/sh
-# pack.sh [animeme_face.zip]: the add-on as a zip for Blender's Edit > Preferences > Add-ons > Install. The same
-# sources give the same bytes.
+# pack.sh [animeme_face.zip]: the add-on as a zip for Blender's Edit > Preferences > Add-ons >
+# Install. The same sources give the same bytes.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 python3 - "$here/animeme_face" "${1:-animeme_face.zip}" <<'PACK'

@@ -11,7 +11,8 @@ import matplotlib
 
 parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
 parser.add_argument("input", help="a face in any file that animeme reads")
-parser.add_argument("-o", "--output", help="the picture (.png .svg .pdf); without it a window opens")
+parser.add_argument("-o", "--output",
+    help="the picture (.png .svg .pdf); without it a window opens")
 parser.add_argument("--faps", default="open_jaw,raise_b_midlip,lower_t_midlip,stretch_l_cornerlip")
 parser.add_argument("--rms", type=float, default=4, help="error of the coded clip, FAP units")
 options = parser.parse_args()
@@ -61,7 +62,8 @@ facing = normal[:, 2] > 0
 light = np.clip(normal @ (0.3, 0.4, 0.87), 0.25, 1)[facing, None]
 colours = head.colours[triangles[facing, 0]] * light
 shade.add_collection(matplotlib.collections.PolyCollection(
-    vertices[triangles[facing], :2], facecolors=colours ** (1 / 2.2), edgecolors="face", linewidths=0.1))
+    vertices[triangles[facing], :2], facecolors=colours ** (1 / 2.2), edgecolors="face",
+    linewidths=0.1))
 shade.set_xlim(-9, 9)
 shade.set_ylim(-14, 10)
 shade.set_aspect("equal")

@@ -1,13 +1,17 @@
-// <animeme-face>: importing this module defines it. It imports 'three', and of 'three/addons/' the loader of
-// glTF and the decoder of meshopt.
+// <animeme-face>: importing this module defines it. It imports 'three', and of 'three/addons/' the
+// loader of glTF and the decoder of meshopt.
 import type {Frame, Track} from './index.js';
 
 /**
- * Attributes: `src` (.mp4, .m3u8, .fba, or the address of `animeme stream`), `head` (.glb), `autoplay`, `controls`,
- * `loop`, `muted`, `label`, `live` (src is a server). Events: `frame` (detail: Frame), `head`, `load`, `error`
- * (ErrorEvent), `lost` (a live connection was lost and is reopened), `blocked` (the browser requires a gesture first),
- * `speech` (detail: an event of a line, word or phone of `animeme stream`, when it is heard), and play, pause, ended,
- * seeked, timeupdate, volumechange, ratechange, durationchange. Parts for styles: `canvas` and `audio`.
+ * Attributes: `src` (.mp4, .m3u8, .fba, or the address of `animeme stream`), `head` (.glb),
+ * `autoplay`, `controls`,
+ * `loop`, `muted`, `label`, `live` (src is a server). Events: `frame` (detail: Frame), `head`,
+ * `load`, `error`
+ * (ErrorEvent), `lost` (a live connection was lost and is reopened), `blocked` (the browser
+ * requires a gesture first),
+ * `speech` (detail: an event of a line, word or phone of `animeme stream`, when it is heard), and
+ * play, pause, ended, seeked, timeupdate, volumechange, ratechange, durationchange. Parts for
+ * styles: `canvas` and `audio`.
  */
 export class AnimemeFace extends HTMLElement {
   src: string | null;

@@ -1,18 +1,23 @@
 // MPEG-4 facial animation in browsers and node.
 
-/** Loads the decoder; call once before anything else. Pass `source` if `wasm/decoder.wasm` cannot be fetched. */
+/**
+ * Loads the decoder; call once before anything else. Pass `source` if `wasm/decoder.wasm` cannot be
+ * fetched.
+ */
 export function ready(source?: WasmSource | Promise<WasmSource>): Promise<void>;
 /** Version of the library at run time: "0.1.0". */
 export function version(): string;
 
 export type WasmSource = BufferSource | Response | WebAssembly.Module;
 
-export type ErrorCode = 'invalid_argument' | 'syntax' | 'out_of_range' | 'truncated' | 'unsupported' | 'not_found'
+export type ErrorCode =
+    'invalid_argument' | 'syntax' | 'out_of_range' | 'truncated' | 'unsupported' | 'not_found'
   | 'io' | 'internal' | 'no_memory';
 
 /** An error: a sentence, and its position. */
 export class AnimemeError extends Error {
-  constructor(code: ErrorCode, message: string, place?: {bit?: number; line?: number; column?: number});
+  constructor(code: ErrorCode, message: string, place?: {bit?: number; line?: number;
+      column?: number});
   readonly code: ErrorCode;
   /** Of a stream; -1: no stream position. */
   readonly bit: number;
@@ -25,7 +30,8 @@ export class AnimemeError extends Error {
 export interface Viseme { select1: number; select2: number; blend: number; def: boolean; }
 /** FAP 2. */
 export interface Expression {
-  select1: number; intensity1: number; select2: number; intensity2: number; initFace: boolean; def: boolean;
+  select1: number; intensity1: number; select2: number; intensity2: number; initFace: boolean;
+      def: boolean;
 }
 
 /** A frame of a face. */
@@ -46,7 +52,9 @@ export interface Frame {
   mask: Uint8Array;
   viseme: Viseme | null;
   expression: Expression | null;
-  /** For each of the ten groups, the rule for absent FAPs: 0 unknown, 1 hold, 2 follow another FAP. */
+  /**
+   * For each of the ten groups, the rule for absent FAPs: 0 unknown, 1 hold, 2 follow another FAP.
+   */
   rules: Uint8Array;
   /** With {bodies: true}: BAP n at index n - 1. */
   body?: {values: Int32Array; mask: Uint8Array} | null;
@@ -80,7 +88,10 @@ export class Decoder extends Handle implements Iterable<Frame> {
   push(bytes: Uint8Array): void;
   /** No more bytes will come. */
   finish(): void;
-  /** The next frame; null: push more, or `ended`. Throws AnimemeError at damage; call again to continue after it. */
+  /**
+   * The next frame; null: push more, or `ended`. Throws AnimemeError at damage; call again to
+   * continue after it.
+   */
   next(): Frame | null;
   readonly ended: boolean;
   /** Resets the decoder: the next byte begins another stream. */
@@ -146,7 +157,10 @@ export interface SpeakOptions {
   seed?: number | bigint;
   /** "joy", "anger:0.5", "thinking" ... ("neutral"). */
   mood?: string;
-  /** Where the eyes look: "camera", "away", "YAW,PITCH" in degrees, "X,Y,Z" in metres ("camera"). Not of begin(). */
+  /**
+   * Where the eyes look: "camera", "away", "YAW,PITCH" in degrees, "X,Y,Z" in metres ("camera").
+   * Not of begin().
+   */
   look?: string;
   /** Parts without idle motion: "gaze,head,brows,blinks" (""). Not of begin(). */
   still?: string;
@@ -159,8 +173,12 @@ export interface SpeakOptions {
 /** Converts phones to frames with a model of a speaker. */
 export class Speaker extends Handle {
   private constructor();
-  /** A model (.dam) as bytes or URL; default: the model of the package. Loads speaker.wasm (or `source`). */
-  static load(model?: BufferSource | string | URL, source?: WasmSource | Promise<WasmSource>): Promise<Speaker>;
+  /**
+   * A model (.dam) as bytes or URL; default: the model of the package. Loads speaker.wasm (or
+   * `source`).
+   */
+  static load(model?: BufferSource | string | URL,
+      source?: WasmSource | Promise<WasmSource>): Promise<Speaker>;
   /** The attribution required when the model is redistributed. */
   readonly attribution: string;
   /** Phones, or a script as text: TextGrid, TSV, label files ... */
@@ -183,7 +201,9 @@ export class Speech extends Handle implements Iterable<Frame> {
 /** A plane as containers carry it. */
 export interface AccessUnit { time: number; duration: number; intra: boolean; bytes: Uint8Array; }
 
-/** Reads the face of an mp4 incrementally: files, fragments, segments after their initialisation. */
+/**
+ * Reads the face of an mp4 incrementally: files, fragments, segments after their initialisation.
+ */
 export class Mp4Reader {
   constructor();
   push(bytes: Uint8Array): AccessUnit[];
@@ -228,7 +248,10 @@ export interface TalkingHeadAudio<Audio> {
   anims?: {name: string; dt: number[]; vs: Record<string, number[]>; delay: number}[];
 }
 
-/** Frames (shown) for TalkingHead: visemes with times, or with {shapes: true} ARKit's shapes frame by frame. */
+/**
+ * Frames (shown) for TalkingHead: visemes with times, or with {shapes: true} ARKit's shapes frame
+ * by frame.
+ */
 export function talkingHead<Audio>(frames: Frame[], audio: Audio, options?: {
   shapes?: boolean;
   words?: {text: string; start: number; end: number}[];

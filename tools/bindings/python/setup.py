@@ -1,6 +1,7 @@
 """What pyproject.toml cannot say: the module is made by CMake.
 
-ANIMEME_BUILD_DIR names a tree in which it is built already, for this Python; CMAKE_ARGS are for a new one.
+ANIMEME_BUILD_DIR names a tree in which it is built already, for this Python; CMAKE_ARGS are for a
+new one.
 """
 import os
 import re
@@ -15,7 +16,8 @@ from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
 
 ROOT = Path(__file__).resolve().parents[3]
-SETTINGS = {"CMAKE_BUILD_TYPE": "Release", "CMAKE_UNITY_BUILD": "ON", "CMAKE_UNITY_BUILD_BATCH_SIZE": 16,
+SETTINGS = {"CMAKE_BUILD_TYPE": "Release", "CMAKE_UNITY_BUILD": "ON",
+    "CMAKE_UNITY_BUILD_BATCH_SIZE": 16,
             "ANIMEME_BUILD_PYTHON": "ON", "ANIMEME_BUILD_TESTS": "OFF", "ANIMEME_BUILD_C": "OFF",
             "Python3_EXECUTABLE": sys.executable}
 
@@ -35,7 +37,8 @@ class ByCMake(build_ext):
                 settings["pybind11_DIR"] = pybind11.get_cmake_dir()
             except ImportError:
                 pass  # that of the system, then
-            cmake("-S", ROOT, "-B", tree, *(f"-D{name}={value}" for name, value in settings.items()),
+            cmake("-S", ROOT, "-B", tree, *(f"-D{name}={value}" for name,
+                value in settings.items()),
                   *shlex.split(os.environ.get("CMAKE_ARGS", "")))
             cmake("--build", tree, "--target", "animeme_python", "--parallel", os.cpu_count() or 1)
         with tempfile.TemporaryDirectory() as prefix:
@@ -52,4 +55,5 @@ def version():
     return re.search(r"animeme VERSION (\S+)", lists.read_text())[1]
 
 
-setup(version=version(), packages=[], ext_modules=[Extension("animeme._animeme", [])], cmdclass={"build_ext": ByCMake})
+setup(version=version(), packages=[], ext_modules=[Extension("animeme._animeme", [])],
+    cmdclass={"build_ext": ByCMake})

@@ -1,9 +1,11 @@
 #!/bin/sh
-# Tries packages in a fresh minimal Debian where nothing else is, as an ordinary user: codes with what `animeme`
-# depends on, speaks with what it recommends, opens the manual, completes a line, and links a program, imports the module
-# of Python if those packages are given. What is run is debian/tests, which autopkgtest runs, too.
+# Tries packages in a fresh minimal Debian where nothing else is, as an ordinary user: codes with
+# what `animeme` depends on, speaks with what it recommends, opens the manual, completes a line, and
+# links a program, imports the module of Python if those packages are given. What is run is
+# debian/tests, which autopkgtest runs, too.
 #   tools/release/packaging/clean_root.sh DEB...
-# Packages come from where apt of this machine has its own. Wants mmdebstrap, and to be root or to have user namespaces.
+# Packages come from where apt of this machine has its own. Wants mmdebstrap, and to be root or to
+# have user namespaces.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 suite=bookworm
@@ -25,15 +27,18 @@ file() {
 
 # apt_get WORDS...: in the root, quietly unless it fails.
 apt_get() {
-  chroot "$root" env DEBIAN_FRONTEND=noninteractive apt-get -q -y --no-install-recommends "$@" >"$root/log" 2>&1 ||
+  chroot "$root" env DEBIAN_FRONTEND=noninteractive apt-get \
+    -q -y --no-install-recommends "$@" >"$root/log" 2>&1 ||
     { cat "$root/log"; exit 1; }
 }
 
 # try TESTS...: scripts of debian/tests, by somebody who is not root.
 try() {
   for test in "$@"; do
-    chroot "$root" setpriv --reuid=1000 --regid=1000 --clear-groups env -i HOME=/home/somebody USER=somebody \
-      LANG=C.UTF-8 PATH=/usr/bin:/bin TERM=dumb sh -c "cd && exec /debs/tests/$test" >"$root/log" 2>&1 ||
+    chroot "$root" setpriv --reuid=1000 --regid=1000 --clear-groups env \
+      -i HOME=/home/somebody USER=somebody \
+      LANG=C.UTF-8 PATH=/usr/bin:/bin TERM=dumb sh -c "cd && exec /debs/tests/$test" >"$root/log" \
+        2>&1 ||
       { say "$test failed"; cat "$root/log"; exit 1; }
     say "$test: right"
   done
@@ -41,7 +46,8 @@ try() {
 
 # size: what is installed, in megabytes.
 size() {
-  chroot "$root" dpkg-query -W -f '${Installed-Size}\n' | awk '{sum += $1} END {printf "%d MB, %d packages", sum / 1024, NR}'
+  chroot "$root" dpkg-query -W -f '${Installed-Size}\n' |
+    awk '{sum += $1} END {printf "%d MB, %d packages", sum / 1024, NR}'
 }
 
 inside() {
@@ -59,7 +65,8 @@ inside() {
     say "animeme with what it depends on: $(size)"
     try codec without_recommends
     # By name, as apt takes them with a package that is installed anew only.
-    wanted=$(chroot "$root" dpkg-query -W -f '${Recommends}' animeme | sed 's/([^)]*)//g; s/|[^,]*//g; s/,/ /g')
+    wanted=$(chroot "$root" dpkg-query -W -f '${Recommends}' animeme |
+      sed 's/([^)]*)//g; s/|[^,]*//g; s/,/ /g')
     # shellcheck disable=SC2086  # words
     apt_get install $wanted
     say "... and recommends: $(size)"
@@ -81,7 +88,8 @@ inside() {
   fi
   # Nothing stays behind.
   apt_get purge '?name(animeme)'
-  left=$(find "$root/usr" "$root/etc" "$root/var/lib" -iname '*animeme*' ! -path '*/dpkg/*' ! -path '*/apt/*')
+  left=$(find "$root/usr" "$root/etc" "$root/var/lib" -iname '*animeme*' ! -path '*/dpkg/*' ! \
+    -path '*/apt/*')
   [ -z "$left" ] || { say "left behind: $left"; exit 1; }
   say "purged: nothing stays"
 }
@@ -98,6 +106,7 @@ export debs
 sources=$(grep -lsE "(^|[ :])$suite( |$)" /etc/apt/sources.list /etc/apt/sources.list.d/*.list \
   /etc/apt/sources.list.d/*.sources || true)
 # shellcheck disable=SC2086  # words
-mmdebstrap --quiet --variant=apt --format=null --customize-hook="'$here/clean_root.sh' --inside \"\$1\"" \
+mmdebstrap --quiet --variant=apt --format=null \
+  --customize-hook="'$here/clean_root.sh' --inside \"\$1\"" \
   $suite /dev/null $sources
 say "all right"

@@ -1,14 +1,15 @@
 #!/bin/sh
-# Builds the Debian packages: copies the tree, lays tools/release/packaging/debian beside the sources as debian/, builds, and
-# has lintian look at what came out (an error of it ends this one).
+# Builds the Debian packages: copies the tree, lays tools/release/packaging/debian beside the
+# sources as debian/, builds, and has lintian look at what came out (an error of it ends this one).
 #   tools/release/packaging/deb.sh -o OUTDIR [-w WORK] [-j JOBS] [--check] [--symbols]
 #     -o OUTDIR   where the .deb, .changes and .buildinfo files go
-#     -w WORK     a folder that is kept and built in again: what has not changed is not compiled again
+#     -w WORK     a folder that is kept and built in again: what has not changed is not compiled
+#                 again
 #     -j JOBS     commands at a time; as many as there are cores if it is not given
 #     --check     runs the tests of the tree in the build
 #     --symbols   also packages of debugging symbols
-# ccache is used where it is installed. DEBFULLNAME and DEBEMAIL say who builds them, which becomes their maintainer;
-# without, they name the authors, who have no address.
+# ccache is used where it is installed. DEBFULLNAME and DEBEMAIL say who builds them, which becomes
+# their maintainer; without, they name the authors, who have no address.
 set -eu
 here=$(cd "$(dirname "$0")/../../.." && pwd)
 usage() {
@@ -29,7 +30,8 @@ while [ $# -gt 0 ]; do
 done
 [ -n "$out" ] || usage
 for program in dpkg-buildpackage dh lintian doxygen; do
-  command -v $program >/dev/null || { echo "$program is missing: run tools/setup.sh packages" >&2; exit 1; }
+  command -v $program >/dev/null ||
+    { echo "$program is missing: run tools/setup.sh packages" >&2; exit 1; }
 done
 mkdir -p "$out"
 out=$(cd "$out" && pwd)
@@ -40,9 +42,10 @@ if [ -z "$work" ]; then
 fi
 mkdir -p "$work/animeme"
 work=$(cd "$work" && pwd)
-# The tree as it is: what git knows of it, or all but what is built where there is no git. Files keep their times, so
-# that what was built before stays.
-find "$work" "$work/animeme" -mindepth 1 -maxdepth 1 ! -name animeme ! -name 'obj-*' -exec rm -rf {} +
+# The tree as it is: what git knows of it, or all but what is built where there is no git. Files
+# keep their times, so that what was built before stays.
+find "$work" "$work/animeme" -mindepth 1 -maxdepth 1 ! -name animeme ! -name 'obj-*' -exec rm \
+  -rf {} +
 if git -C "$here" rev-parse --git-dir >/dev/null 2>&1; then
   git -C "$here" ls-files -z --cached --others --exclude-standard
 else

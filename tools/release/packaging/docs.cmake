@@ -1,5 +1,6 @@
-# cmake --build build/release --target docs: with Doxygen, mkdocs and its theme Material the site (tools/release/site), start at
-# build/release/site/index.html; with Doxygen alone its own manual of headers and pages, build/release/docs/index.html.
+# cmake --build build/release --target docs: with Doxygen, mkdocs and its theme Material the site
+# (tools/release/site), start at build/release/site/index.html; with Doxygen alone its own manual of
+# headers and pages, build/release/docs/index.html.
 if(NOT PROJECT_IS_TOP_LEVEL)
   return()
 endif()
@@ -13,14 +14,16 @@ find_program(ANIMEME_MKDOCS mkdocs)
 find_program(ANIMEME_DEBIAN_PYTHON3 python3 PATHS /usr/bin NO_DEFAULT_PATH)
 set(no_theme 1)
 if(ANIMEME_MKDOCS AND ANIMEME_DEBIAN_PYTHON3 AND TARGET animeme AND NOT CMAKE_CROSSCOMPILING)
-  execute_process(COMMAND ${ANIMEME_DEBIAN_PYTHON3} -c "from mkdocs import utils; utils.get_theme_dir('material')"
+  execute_process(COMMAND ${ANIMEME_DEBIAN_PYTHON3}
+    -c "from mkdocs import utils; utils.get_theme_dir('material')"
     RESULT_VARIABLE no_theme OUTPUT_QUIET ERROR_QUIET)
 endif()
 
 set(DOXYGEN_STRIP_FROM_PATH ${PROJECT_SOURCE_DIR})
 set(DOXYGEN_JAVADOC_AUTOBRIEF YES)
 # What is not installed, and what is data.
-set(DOXYGEN_EXCLUDE_PATTERNS */detail/*.h */maths/*.h */kinds/*.h */rig/*.h */app/late/*.h *_internal.h */conformance/cases/*)
+set(DOXYGEN_EXCLUDE_PATTERNS */detail/*.h */maths/*.h */kinds/*.h */rig/*.h */app/late/*.h
+  *_internal.h */conformance/cases/*)
 # Operators say all by their names.
 set(DOXYGEN_EXCLUDE_SYMBOLS *operator*)
 set(DOXYGEN_DISTRIBUTE_GROUP_DOC YES)
@@ -57,6 +60,7 @@ foreach(component IN LISTS components)
 endforeach()
 file(WRITE ${PROJECT_BINARY_DIR}/pages/headers.txt "${table}")
 add_custom_target(docs COMMENT "Site" VERBATIM USES_TERMINAL
-  COMMAND ${ANIMEME_DEBIAN_PYTHON3} -B ${PROJECT_SOURCE_DIR}/tools/release/site/make.py ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}
+  COMMAND ${ANIMEME_DEBIAN_PYTHON3} -B ${PROJECT_SOURCE_DIR}/tools/release/site/make.py
+  ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}
     $<TARGET_FILE:animeme>)
 add_dependencies(docs docs_headers animeme)

@@ -1,6 +1,8 @@
-# What we are linked with and under which licences: the rows of libraries.tsv, and documents made of them.
+# What we are linked with and under which licences: the rows of libraries.tsv, and documents made of
+# them.
 
-# animeme_libraries(RESULT): the rows, each as "name|object|licence|version|use|by", with the versions installed.
+# animeme_libraries(RESULT): the rows, each as "name|object|licence|version|use|by", with the
+# versions installed.
 function(animeme_libraries result)
   find_program(ANIMEME_PKG_CONFIG pkg-config)
   mark_as_advanced(ANIMEME_PKG_CONFIG)
@@ -30,7 +32,8 @@ function(animeme_libraries_source file)
     string(REPLACE "|" "\", \"" row "${row}")
     string(APPEND text "    {\"${row}\"},\n")
   endforeach()
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tools/release/packaging/libraries.tsv)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
+    ${PROJECT_SOURCE_DIR}/tools/release/packaging/libraries.tsv)
   file(CONFIGURE OUTPUT ${file} @ONLY CONTENT [[#include "tools/app/commands/licences.h"
 namespace animeme::tools {
 namespace {
@@ -42,9 +45,10 @@ std::span<const Library> known_libraries() { return kLibraries; }
 ]])
 endfunction()
 
-# animeme_spdx(PACKAGE COMPONENT component [LINKED targets...] [LOADED targets...] [CONTAINS names...]): the SPDX
-# document of a package: what the objects of LINKED targets are linked with, what LOADED ones (modules) need once they
-# are asked for, and whose headers became part of them. Installed with `component`.
+# animeme_spdx(PACKAGE COMPONENT component [LINKED targets...] [LOADED targets...] [CONTAINS
+# names...]): the SPDX document of a package: what the objects of LINKED targets are linked with,
+# what LOADED ones (modules) need once they are asked for, and whose headers became part of them.
+# Installed with `component`.
 function(animeme_spdx package)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "COMPONENT" "LINKED;LOADED;CONTAINS")
   set(linked "")
@@ -63,23 +67,28 @@ function(animeme_spdx package)
   string(REPLACE ";" "," contains "${arg_CONTAINS}")
   add_custom_command(OUTPUT ${document} COMMENT "SPDX document of ${package}" VERBATIM
     DEPENDS ${targets} ${script} ${PROJECT_SOURCE_DIR}/tools/release/packaging/libraries.tsv
-    COMMAND ${CMAKE_COMMAND} -DPACKAGE=${package} -DVERSION=${PROJECT_VERSION} -DREADELF=${CMAKE_READELF}
-      "-DLINKED=$<JOIN:${linked},,>" "-DLOADED=$<JOIN:${loaded},,>" -DCONTAINS=${contains} -DOUTPUT=${document}
+    COMMAND ${CMAKE_COMMAND} -DPACKAGE=${package} -DVERSION=${PROJECT_VERSION}
+    -DREADELF=${CMAKE_READELF}
+      "-DLINKED=$<JOIN:${linked},,>" "-DLOADED=$<JOIN:${loaded},,>" -DCONTAINS=${contains}
+      -DOUTPUT=${document}
       -P ${script})
   add_custom_target(spdx_${package} ALL DEPENDS ${document})
-  install(FILES ${document} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/animeme COMPONENT ${arg_COMPONENT} OPTIONAL)
+  install(FILES ${document} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/animeme
+    COMPONENT ${arg_COMPONENT} OPTIONAL)
 endfunction()
 
 # The documents of the packages of tools/release/packaging/debian.
 function(animeme_install_licences)
-  if(NOT CMAKE_READELF OR CMAKE_CROSSCOMPILING OR NOT CMAKE_SYSTEM_NAME STREQUAL "Linux" OR ANIMEME_SANITIZE)
+  if(NOT CMAKE_READELF OR CMAKE_CROSSCOMPILING OR NOT CMAKE_SYSTEM_NAME STREQUAL "Linux"
+    OR ANIMEME_SANITIZE)
     return()
   endif()
   set(models)
   if(TARGET animeme_dam)
     set(models Eigen)
   endif()
-  set(pages "libc++ (pages)" "wasi-libc (pages)")  # part of the WebAssembly of tools/view/viewer/rig
+  # part of the WebAssembly of tools/view/viewer/rig
+  set(pages "libc++ (pages)" "wasi-libc (pages)")
   if(TARGET animeme)
     get_property(modules GLOBAL PROPERTY ANIMEME_MODULES)
     animeme_spdx(animeme COMPONENT program LINKED animeme LOADED ${modules}
@@ -91,6 +100,7 @@ function(animeme_install_licences)
     animeme_spdx(libanimeme-dev COMPONENT package CONTAINS ${models} ${tools})
   endif()
   if(TARGET animeme_python)
-    animeme_spdx(python3-animeme COMPONENT python LINKED animeme_python CONTAINS ${models} ${tools} pybind11)
+    animeme_spdx(python3-animeme COMPONENT python LINKED animeme_python CONTAINS ${models} ${tools}
+      pybind11)
   endif()
 endfunction()

@@ -18,7 +18,8 @@ function(animeme_public_headers folder result)
   set(${result} ${headers} PARENT_SCOPE)
 endfunction()
 
-# animeme_install_if_built(NAME component FILE): `cmake --install` leaves out the rest of the rules of this folder unless
+# animeme_install_if_built(NAME component FILE): `cmake --install` leaves out the rest of the rules
+# of this folder unless
 # FILE is there, and says so at the end. A component that is asked for by its name has to be there.
 function(animeme_install_if_built name component file)
   install(CODE "if(NOT EXISTS \"${file}\")
@@ -39,7 +40,8 @@ function(animeme_library name folder)
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_features(animeme_${name} PUBLIC cxx_std_20)
   target_link_libraries(animeme_${name} PRIVATE $<BUILD_INTERFACE:animeme_build>)
-  # C++ interfaces change with every minor version, as the CMake package says, too (SameMinorVersion).
+  # C++ interfaces change with every minor version, as the CMake package says, too
+  # (SameMinorVersion).
   set_target_properties(animeme_${name} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION}
     SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   animeme_install_if_built("library ${name}" ${name} $<TARGET_FILE:animeme_${name}>)
@@ -67,9 +69,10 @@ animeme_install_headers(${name} \"${CMAKE_INSTALL_INCLUDEDIR}\" \"${PROJECT_BINA
   endif()
 endfunction()
 
-# animeme_requires(NAME [COMPONENTS names...] [PACKAGES names...] [MODULES lines...] [LIBRARIES names...]): what has to
-# be found before component NAME is: other components, all of them; packages of CMake; modules of pkg-config, a line
-# each: the prefix of their target, then their names; libraries that are linked by name.
+# animeme_requires(NAME [COMPONENTS names...] [PACKAGES names...] [MODULES lines...] [LIBRARIES
+# names...]): what has to be found before component NAME is: other components, all of them; packages
+# of CMake; modules of pkg-config, a line each: the prefix of their target, then their names;
+# libraries that are linked by name.
 function(animeme_requires name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "COMPONENTS;PACKAGES;MODULES;LIBRARIES")
   set_property(GLOBAL APPEND PROPERTY ANIMEME_BELOW_${name} ${arg_COMPONENTS})

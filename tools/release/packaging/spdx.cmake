@@ -1,5 +1,6 @@
-# Writes the SPDX 2.3 document OUTPUT of PACKAGE: what the files LINKED and LOADED (by commas) need, as their tables of
-# dynamic linking say, and CONTAINS, whose headers became part of them. Licences: libraries.tsv.
+# Writes the SPDX 2.3 document OUTPUT of PACKAGE: what the files LINKED and LOADED (by commas) need,
+# as their tables of dynamic linking say, and CONTAINS, whose headers became part of them. Licences:
+# libraries.tsv.
 cmake_minimum_required(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/libraries.cmake)
 animeme_libraries(rows)
@@ -86,7 +87,8 @@ foreach(kind LINKED LOADED)
     execute_process(COMMAND ${READELF} -d ${file} OUTPUT_VARIABLE needed COMMAND_ERROR_IS_FATAL ANY)
     string(REPLACE "[" "<" needed "${needed}")  # an open bracket keeps lists together
     string(REGEX MATCHALL "\\(NEEDED\\)[^\n]*<[^]\n]*" needed "${needed}")
-    file(GET_RUNTIME_DEPENDENCIES LIBRARIES ${file} RESOLVED_DEPENDENCIES_VAR below UNRESOLVED_DEPENDENCIES_VAR absent)
+    file(GET_RUNTIME_DEPENDENCIES LIBRARIES ${file} RESOLVED_DEPENDENCIES_VAR below
+      UNRESOLVED_DEPENDENCIES_VAR absent)
     foreach(line IN LISTS needed)
       string(REGEX REPLACE ".*<" "" object "${line}")
       row_of(${object} row)
@@ -119,7 +121,8 @@ string(SUBSTRING ${digest} 0 32 digest)
 set(extracted "")
 if("LicenseRef-nonfree" IN_LIST licences)
   set(extracted "\nLicenseID: LicenseRef-nonfree\n")
-  string(APPEND extracted "ExtractedText: <text>FFmpeg with --enable-nonfree: not to be passed on.</text>\n")
+  string(APPEND extracted
+    "ExtractedText: <text>FFmpeg with --enable-nonfree: not to be passed on.</text>\n")
 endif()
 file(WRITE ${OUTPUT} "SPDXVersion: SPDX-2.3
 DataLicense: CC0-1.0

@@ -36,10 +36,14 @@ cue() {
 # The left one in the picture looks to its left, the right one to its right.
 look=${LOOK:-22} view=${VIEW:-22}
 "$animeme" speak "$dir/left.ssml" --look="$look,0" --seed 3 -o "$dir/left.mp4" 2>"$dir/log"
-"$animeme" speak --script "$dir/right.srt" --fit 0.8-1.3 --look="-$look,0" --seed 4 -o "$dir/right.mp4" 2>"$dir/log"
-"$animeme" render "$dir/left.mp4" --head "$left" --view "-$view" --size 480x480 -o "$dir/left_film.mp4" 2>"$dir/log"
-"$animeme" render "$dir/right.mp4" --head "$right" --view "$view" --size 480x480 -o "$dir/right_film.mp4" 2>"$dir/log"
+"$animeme" speak --script "$dir/right.srt" --fit 0.8-1.3 --look="-$look,0" --seed 4 \
+  -o "$dir/right.mp4" 2>"$dir/log"
+"$animeme" render "$dir/left.mp4" --head "$left" --view "-$view" --size 480x480 \
+  -o "$dir/left_film.mp4" 2>"$dir/log"
+"$animeme" render "$dir/right.mp4" --head "$right" --view "$view" --size 480x480 \
+  -o "$dir/right_film.mp4" 2>"$dir/log"
 ffmpeg -nostdin -v error -y -i "$dir/left_film.mp4" -i "$dir/right_film.mp4" -filter_complex \
   "[0:v][1:v]hstack=inputs=2[v];[0:a][1:a]amix=inputs=2:duration=longest:normalize=0[a]" \
   -map "[v]" -map "[a]" "$out/dialogue.mp4"
-ffmpeg -nostdin -v error -y -i "$out/dialogue.mp4" -vf "fps=2,scale=360:-1,tile=4x4" -frames:v 1 -update 1 "$out/dialogue.png"
+ffmpeg -nostdin -v error -y -i "$out/dialogue.mp4" -vf "fps=2,scale=360:-1,tile=4x4" -frames:v 1 \
+  -update 1 "$out/dialogue.png"

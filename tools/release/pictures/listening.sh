@@ -12,7 +12,8 @@ port=${PORT:-7391}
 text="I was there on Sunday, you know. Nobody had told me. And then it began to rain! So we went home."
 "$animeme" speak --text "$text" -o "$dir/other.mp4" 2>"$dir/log"
 ffmpeg -nostdin -v error -y -i "$dir/other.mp4" -vn "$dir/other.wav"
-"$animeme" receive udp://127.0.0.1:$port --duration 10 -o "$dir/listening.fba" 2>"$dir/receive.log" &
+"$animeme" receive udp://127.0.0.1:$port --duration 10 -o "$dir/listening.fba" \
+  2>"$dir/receive.log" &
 receiver=$!
 sleep 13 | timeout 14 "$animeme" stream --say - --hear "$dir/other.wav" --seed "${SEED:-2}" \
   --to udp://127.0.0.1:$port 2>"$dir/stream.log" || true

@@ -1,7 +1,8 @@
 #!/bin/sh
 # Contact sheets to look at: one sentence in seven moods, then looks and lids, a row for each head.
 # Pictures of avatars whose licences forbid it are not committed. Needs ffmpeg.
-#   tools/release/pictures/moods.sh build/release/bin/animeme OUTFOLDER woman man me.glb vroid.vrm ...
+#   tools/release/pictures/moods.sh build/release/bin/animeme OUTFOLDER woman man me.glb vroid.vrm
+#   ...
 set -eu
 animeme=$1 out=$2
 shift 2
@@ -27,7 +28,8 @@ row() {
   shift 3
   columns=
   for time in "$@"; do
-    "$animeme" render "$clip" --head "$head" --time "$time" --size "$size" --zoom "$zoom" -o "$dir/at.$time.png" 2>"$dir/log"
+    "$animeme" render "$clip" --head "$head" --time "$time" --size "$size" --zoom "$zoom" \
+      -o "$dir/at.$time.png" 2>"$dir/log"
     columns="$columns $dir/at.$time.png"
   done
   # shellcheck disable=SC2086
@@ -36,13 +38,16 @@ row() {
 
 text="Now I know what you mean by all of this."
 for mood in neutral joy sadness anger fear disgust surprise; do
-  "$animeme" speak --text "$text" --mood $mood --still gaze,head,blinks -o "$dir/$mood.fba" 2>"$dir/log"
+  "$animeme" speak --text "$text" --mood $mood --still gaze,head,blinks \
+    -o "$dir/$mood.fba" 2>"$dir/log"
 done
 looks="camera 25,0 -25,0 0,20 0,-20 15,-12"
 for look in $looks; do
-  "$animeme" speak --text "Hm." --look="$look" --still head,blinks -o "$dir/look.$look.fba" 2>"$dir/log"
+  "$animeme" speak --text "Hm." --look="$look" --still head,blinks \
+    -o "$dir/look.$look.fba" 2>"$dir/log"
 done
-"$animeme" speak --text "$text And what do you think of it, my friend?" --seed 5 -o "$dir/alive.fba" 2>"$dir/log"
+"$animeme" speak --text "$text And what do you think of it, my friend?" --seed 5 \
+  -o "$dir/alive.fba" 2>"$dir/log"
 
 number=0
 for head in "$@"; do

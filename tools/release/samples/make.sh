@@ -1,5 +1,6 @@
 #!/bin/sh
-# Makes the samples of this folder again, by the program and make.py: tools/release/samples/make.sh [ANIMEME]
+# Makes the samples of this folder again, by the program and make.py: tools/release/samples/make.sh
+# [ANIMEME]
 set -eu
 folder=$(cd "$(dirname "$0")" && pwd)
 animeme=${1:-$folder/../../../build/release/bin/animeme}
@@ -11,7 +12,8 @@ run() { "$animeme" -q "$@"; }
 # A voice, its text, its phones and words; what it looks like.
 text="My mouth moves by numbers."
 echo "$text" >voice.txt
-run speak --text "$text" --speed 190 -o talk.mp4 -o talk.fap -o talk.fba -o LiveLinkFace.csv.livelink.csv -o curves.csv
+run speak --text "$text" --speed 190 -o talk.mp4 -o talk.fap -o talk.fba \
+  -o LiveLinkFace.csv.livelink.csv -o curves.csv
 mv LiveLinkFace.csv.livelink.csv LiveLinkFace.csv
 run demux talk.mp4 -o voice.wav -o voice.TextGrid
 run demux talk.mp4 -o voice.m4a -o voice.tsv
@@ -21,7 +23,8 @@ run demux talk.mp4 -o voice.vtt
 mkdir takes texts
 while read -r name words; do
   echo "$words" >"texts/$name.txt"
-  run speak --text "$words" --lang en-gb --speed 200 --rate 15 -o "$name.mp4" -o "takes/$name.livelink.csv"
+  run speak --text "$words" --lang en-gb --speed 200 --rate 15 -o "$name.mp4" \
+    -o "takes/$name.livelink.csv"
   mv "takes/$name.livelink.csv" "takes/$name.csv"
   run demux "$name.mp4" -o "takes/$name.m4a"
 done <<END

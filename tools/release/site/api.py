@@ -1,4 +1,5 @@
-"""Pages of the public headers, one each, of what Doxygen read there (XML): what an entry is, and its words."""
+"""Pages of the public headers, one each, of what Doxygen read there (XML): what an entry is, and
+its words."""
 
 import html
 import os
@@ -7,7 +8,8 @@ import xml.etree.ElementTree as ElementTree
 from collections import defaultdict
 
 KINDS = ("class", "struct", "union")
-SIGNS = dict(ndash="–", mdash="—", zwj="", nonbreakablespace=" ", linebreak="\n", lsquo="‘", rsquo="’", ldquo="“",
+SIGNS = dict(ndash="–", mdash="—", zwj="", nonbreakablespace=" ", linebreak="\n", lsquo="‘",
+    rsquo="’", ldquo="“",
              rdquo="”")
 
 
@@ -19,9 +21,11 @@ class Api:
         self.entries = defaultdict(list)  # by file: (line, kind, element)
         self.files, self.places = {}, {}  # by file: its element; by id: (file, anchor)
         # The folder may have files of headers that are gone.
-        for entry in ElementTree.parse(os.path.join(folder, "index.xml")).getroot().iter("compound"):
+        for entry in ElementTree.parse(os.path.join(folder,
+            "index.xml")).getroot().iter("compound"):
             if entry.get("kind") in ("file", "namespace", *KINDS):
-                for compound in ElementTree.parse(os.path.join(folder, entry.get("refid") + ".xml")).getroot():
+                for compound in ElementTree.parse(os.path.join(folder,
+                    entry.get("refid") + ".xml")).getroot():
                     self._take(compound)
         for entries in self.entries.values():
             entries.sort(key=lambda entry: entry[0])
@@ -51,7 +55,8 @@ class Api:
                     self.entries[path].append((line, member.get("kind"), member))
 
     def _file(self, element):
-        return os.path.relpath(os.path.join(self.root, element.find("location").get("file")), self.root)
+        return os.path.relpath(os.path.join(self.root, element.find("location").get("file")),
+            self.root)
 
     # -- pages
 
@@ -71,7 +76,8 @@ class Api:
                 continue
             name = element.findtext("name")
             if name.startswith("@"):  # an enum without a name
-                lines += [f"## Constants {{ #constants-{element.find('location').get('line')} }}", ""]
+                lines += [f"## Constants {{ #constants-{element.find('location').get('line')} }}",
+                    ""]
             elif name != named:  # overloads share a heading
                 lines += [f"## {_escape(name)} {{ #{anchor(name)} }}", ""]
             named = name
@@ -90,10 +96,13 @@ class Api:
     def _class(self, kind, compound, path):
         name = compound.findtext("compoundname")
         short = re.sub(r"^animeme::(\w+::)?", "", name)
-        lines = [f"## {_escape(short)} {{ #{anchor(name)} }}", "", *_code(_template(compound) + f"{kind} {name}")]
+        lines = [f"## {_escape(short)} {{ #{anchor(name)} }}", "",
+            *_code(_template(compound) + f"{kind} {name}")]
         lines += self._words(compound, path)
-        members = [member for section in compound.iter("sectiondef") for member in section.iter("memberdef")]
-        members = [member for member in members if member.get("prot") == "public" and member.get("kind") != "friend"]
+        members = [member for section in compound.iter("sectiondef") for member
+            in section.iter("memberdef")]
+        members = [member for member in members if member.get("prot") == "public"
+            and member.get("kind") != "friend"]
         for member in sorted(members, key=lambda item: int(item.find("location").get("line"))):
             if member.get("kind") in ("variable", "typedef") and len(self._words(member, path)) < 3:
                 lines += _item(_signature(member), self._words(member, path))
@@ -104,7 +113,8 @@ class Api:
     def _entry(self, member, path):
         lines = _code(_signature(member)) + self._words(member, path)
         for value in member.findall("enumvalue"):
-            lines += _item(value.findtext("name") + " " + _flat(value.find("initializer")), self._words(value, path))
+            lines += _item(value.findtext("name") + " " + _flat(value.find("initializer")),
+                self._words(value, path))
         return lines + [""]
 
     # -- words
@@ -194,20 +204,23 @@ def _template(element):
 def _signature(member):
     """A declaration in a line, as it is in the header."""
     kind, name = member.get("kind"), member.findtext("name")
-    type_, arguments, start = (_flat(member.find(part)) for part in ("type", "argsstring", "initializer"))
+    type_, arguments, start = (_flat(member.find(part)) for part
+        in ("type", "argsstring", "initializer"))
     if kind == "define":
         parameters = [one.findtext("defname") or "" for one in member.findall("param")]
         return f"#define {name}{'(' + ', '.join(parameters) + ')' if parameters else ''} {start}".strip()
     if kind == "enum":
         name = "" if name.startswith("@") else " " + name
-        return f"enum{' class' if member.get('strong') == 'yes' else ''}{name}" + (f" : {type_}" if type_ else "")
+        return f"enum{' class' if member.get('strong') == 'yes' else ''}{name}" + (f" : {type_}"
+            if type_ else "")
     if kind == "typedef":
         return _flat(member.find("definition")) or f"using {name}"
     words = f"{type_} {name}{arguments}".strip()
     if member.get("static") == "yes" and not words.startswith("static"):
         words = "static " + words
     short = len(start) < 60 and "\n" not in start
-    return _template(member) + words + (f" {start}" if kind == "variable" and start and short else "")
+    return _template(member) + words + (f" {start}" if kind == "variable" and start and short
+        else "")
 
 
 def _code(text):

@@ -1,10 +1,12 @@
-"""What mkdocs asks while it writes: what the theme's pages lack for people who cannot see or use no mouse."""
+"""What mkdocs asks while it writes: what the theme's pages lack for people who cannot see or use no
+mouse."""
 
 import re
 
 CHANGES = (
     ('role="dialog"', 'role="dialog" aria-label="Search"'),
-    # What scrolls has to be reached by keys: code does by its box (style.css), where the theme's script leaves that be.
+    # What scrolls has to be reached by keys: code does by its box (style.css), where the theme's
+    # script leaves that be.
     ('class="md-search__scrollwrap"', 'class="md-search__scrollwrap" tabindex="0"'),
     ("<pre(?=[ >])", '<pre tabindex="0"'),
     # A corner of a table heads nothing.

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""make.py SOURCE BUILD PROGRAM: the site, BUILD/site, of the project's own pages, its headers and its program.
+"""make.py SOURCE BUILD PROGRAM: the site, BUILD/site, of the project's own pages, its headers and
+its program.
 
-BUILD/xml is what Doxygen read in the headers, BUILD/pages/headers.txt a table of them: component|header. Pages are
-collected in BUILD/pages/all for mkdocs.
+BUILD/xml is what Doxygen read in the headers, BUILD/pages/headers.txt a table of them:
+component|header. Pages are collected in BUILD/pages/all for mkdocs.
 """
 
 import os
@@ -19,12 +20,18 @@ from api import Api  # noqa: E402
 TOPS = ("fap", "codec", "dam", "conformance", "tools")
 PICTURES = (".png", ".jpg", ".svg", ".webp")
 # What of the pages is where; all others are rooms.
-TUTORIALS = ("tools/cookbook.md", "dam/tutorial.md", "tools/bindings/blender/README.md", "tools/bindings/c/README.md", "tools/bindings/python/README.md",
-             "tools/bindings/npm/README.md", "tools/bindings/agents/README.md", "tools/release/samples/README.md", "tools/bindings/examples/README.md", "tools/characters/trackers/README.md",
+TUTORIALS = ("tools/cookbook.md", "dam/tutorial.md", "tools/bindings/blender/README.md",
+    "tools/bindings/c/README.md", "tools/bindings/python/README.md",
+             "tools/bindings/npm/README.md", "tools/bindings/agents/README.md",
+             "tools/release/samples/README.md", "tools/bindings/examples/README.md",
+             "tools/characters/trackers/README.md",
              "tools/app/cluster/README.md")
-FORMATS = ("codec/bitstream.md", "codec/standards.md", "fap/semantics.md", "fap/text_format.md", "tools/formats/exchange/README.md",
-           "tools/formats/media/containers.md", "dam/script/phoneme_scripts.md", "tools/formats/scripts/README.md",
-           "tools/view/gltf/README.md", "tools/view/gltf/avatars.md", "fap/xml/README.md", "fap/head/face_models.md",
+FORMATS = ("codec/bitstream.md", "codec/standards.md", "fap/semantics.md", "fap/text_format.md",
+    "tools/formats/exchange/README.md",
+           "tools/formats/media/containers.md", "dam/script/phoneme_scripts.md",
+           "tools/formats/scripts/README.md",
+           "tools/view/gltf/README.md", "tools/view/gltf/avatars.md", "fap/xml/README.md",
+           "fap/head/face_models.md",
            "conformance/README.md")
 
 
@@ -33,7 +40,8 @@ def pages_of(source):
     found = ["README.md", "HACKING.md", "CHANGELOG.md"]
     for top in TOPS:
         for folder, folders, names in os.walk(os.path.join(source, top)):
-            folders[:] = sorted(one for one in folders if one not in ("node_modules", "cases", "build"))
+            folders[:] = sorted(one for one in folders if one not
+                in ("node_modules", "cases", "build"))
             inside = os.path.relpath(folder, source)
             found += [os.path.join(inside, name) for name in sorted(names) if name.endswith(".md")]
     return found
@@ -50,7 +58,8 @@ class Stage:
             file.write(text)
 
     def take(self, page):
-        """A page as it is, but for links: pictures come along, headers are pages here, other files are names."""
+        """A page as it is, but for links: pictures come along, headers are pages here, other files
+        are names."""
         with open(os.path.join(self.source, page), encoding="utf-8") as file:
             text = file.read()
         here = os.path.dirname(page)
@@ -84,7 +93,8 @@ def title_of(source, page):
 
 def say(program, *words):
     wide = {**os.environ, "COLUMNS": "96"}  # that a page has room for
-    return subprocess.run([program, *words], check=True, capture_output=True, text=True, env=wide).stdout
+    return subprocess.run([program, *words], check=True, capture_output=True, text=True,
+        env=wide).stdout
 
 
 def command_pages(stage, program):
@@ -127,7 +137,8 @@ def api_pages(stage, xml):
 
 
 def listing(stage, title, pattern, language, readme, page):
-    """A page of declarations as they are, for languages whose stubs are their manual; nothing without their room."""
+    """A page of declarations as they are, for languages whose stubs are their manual; nothing
+    without their room."""
     folder = os.path.join(stage.source, os.path.dirname(readme))
     files = []
     for where, folders, names in os.walk(folder):
@@ -144,8 +155,10 @@ def listing(stage, title, pattern, language, readme, page):
 
 
 def demo_page(stage, program):
-    """A sentence, spoken by the program onto three heads; without a voice, from a script of the project's."""
-    clip, page = os.path.join(stage.out, "..", "demo.mp4"), os.path.join(stage.out, "demo", "talking_head.html")
+    """A sentence, spoken by the program onto three heads; without a voice, from a script of the
+    project's."""
+    clip, page = os.path.join(stage.out, "..", "demo.mp4"), os.path.join(stage.out, "demo",
+        "talking_head.html")
     os.makedirs(os.path.dirname(page), exist_ok=True)
     text = "Hello world! My mouth moves by numbers, and a few thousand bits a second are enough."
     script = os.path.join(stage.source, "tests/data/grid_s1_sample/phonemes/prac8p.tsv")
@@ -177,7 +190,8 @@ def main():
         for line in file.read().split():
             component, header = line.split("|")
             base = os.path.basename(header).removesuffix(".h")
-            headers[header] = (component, f"api/{'c' if component == 'c' else 'cpp/' + component}/{base}")
+            headers[header] = (component,
+                f"api/{'c' if component == 'c' else 'cpp/' + component}/{base}")
     stage = Stage(source, pages, headers, os.path.join(out, "all"))
     shutil.rmtree(stage.out, ignore_errors=True)
     for page in pages:
@@ -188,16 +202,20 @@ def main():
     demo_page(stage, program)
     commands = command_pages(stage, program)
     cpp = api_pages(stage, os.path.join(build, "xml"))
-    named = lambda chosen: [{title_of(source, page): page} for page in chosen if page in stage.pages]  # noqa: E731
+    named = lambda chosen: [{title_of(source, page): page} for page in chosen if page
+        in stage.pages]  # noqa: E731
     modules = [page for page in pages if page not in TUTORIALS + FORMATS and os.path.dirname(page)]
     by_top = [{top: named([page for page in modules if page.split("/")[0] == top])} for top in TOPS]
     nav = [
-        {"Start": [{"Animeme": "README.md"}, {"Working on it": "HACKING.md"}, {"Changes": "CHANGELOG.md"}]},
+        {"Start": [{"Animeme": "README.md"}, {"Working on it": "HACKING.md"},
+        {"Changes": "CHANGELOG.md"}]},
         {"Tutorials": named(TUTORIALS)}, {"Formats": named(FORMATS)}, {"Commands": commands},
         {"Demo": "demo/index.md"},
         {"API": [{"C": "api/c/animeme.md"}, {"C++": cpp},
-                 *listing(stage, "Python", ".pyi", "python", "tools/bindings/python/README.md", "api/python.md"),
-                 *listing(stage, "JavaScript", ".d.ts", "typescript", "tools/bindings/npm/README.md", "api/javascript.md")]},
+                 *listing(stage, "Python", ".pyi", "python", "tools/bindings/python/README.md",
+                 "api/python.md"),
+                 *listing(stage, "JavaScript", ".d.ts", "typescript",
+                 "tools/bindings/npm/README.md", "api/javascript.md")]},
         {"Modules": by_top},
     ]
     with open(os.path.join(here, "mkdocs.yml"), encoding="utf-8") as file:
@@ -207,7 +225,8 @@ def main():
     settings_file = os.path.join(out, "mkdocs.yml")
     with open(settings_file, "w", encoding="utf-8") as file:
         yaml.safe_dump(settings, file, allow_unicode=True, sort_keys=False)
-    return subprocess.run(["mkdocs", "build", "--strict", "--quiet", "--clean", "-f", settings_file]).returncode
+    return subprocess.run(["mkdocs", "build", "--strict", "--quiet", "--clean", "-f",
+        settings_file]).returncode
 
 
 sys.exit(main())

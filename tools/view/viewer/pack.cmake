@@ -1,4 +1,5 @@
-# cmake -DOUTPUT=parts.cpp -DSOURCE=folder -DRIG=rig.wasm "-DHEAD=a.js b.js" "-DPAGE=c.js ..." -P pack.cmake
+# cmake -DOUTPUT=parts.cpp -DSOURCE=folder -DRIG=rig.wasm "-DHEAD=a.js b.js" "-DPAGE=c.js ..." -P
+# pack.cmake
 # Modules become one script: their imports and the word export go, so names must be unique.
 set(text "#include \"tools/view/viewer/detail/parts.h\"\n\nnamespace animeme::viewer::detail {\n")
 

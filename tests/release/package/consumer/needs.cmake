@@ -8,7 +8,8 @@ endforeach()
 foreach(name inspect render viewer)
   set(needs_${name} Threads ZLIB)
 endforeach()
-set(needs_xml LibXml2 PkgConfig)  # where some folder has found the latter, the module of the first takes it for granted
+# where some folder has found the latter, the module of the first takes it for granted
+set(needs_xml LibXml2 PkgConfig)
 set(needs_gltf PkgConfig ZLIB)
 set(needs_media LibXml2 PkgConfig)
 foreach(name text voice)

@@ -1,6 +1,7 @@
 // node three.js FILE.glb CAMERA.json OUT.rgb: what three.js draws of a file, by the lights of
-// tools/view/render/detail/material_light.cpp. CAMERA: {eye, target, angle (rad), size (pixels), background (0xRRGGBB)}; with `time` its
-// first animation at that second, without `eye` what shapes move from the front. OUT: R, G, B, rows from the top.
+// tools/view/render/detail/material_light.cpp. CAMERA: {eye, target, angle (rad), size (pixels),
+// background (0xRRGGBB)}; with `time` its first animation at that second, without `eye` what shapes
+// move from the front. OUT: R, G, B, rows from the top.
 'use strict';
 
 const fs = require('fs');
@@ -93,7 +94,8 @@ async function main([file, camera, out]) {
     await page.resize(wanted.size, wanted.size);
     await page.wait('window.loaded');
     await page.evaluate((...all) => window.draw(...all), `/file/${path.basename(file)}`, wanted);
-    const {width, height, channels, data} = readPng(await page.screenshot(path.join(folder, 'three.png')));
+    const {width, height, channels,
+        data} = readPng(await page.screenshot(path.join(folder, 'three.png')));
     const rgb = Buffer.alloc(width * height * 3);
     for (let i = 0; i < width * height; ++i) {
       for (let k = 0; k < 3; ++k) rgb[i * 3 + k] = data[i * channels + k];

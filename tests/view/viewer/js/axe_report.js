@@ -14,7 +14,9 @@ async function judged() {
 }
 
 async function axe(page, file, folder, open) {
-  const source = fs.readFileSync(require.resolve('../../../readers/js/node_modules/axe-core/axe.min.js'), 'utf8');
+  const source =
+      fs.readFileSync(require.resolve('../../../readers/js/node_modules/axe-core/axe.min.js'),
+      'utf8');
   const report = {checked: [], violations: []};
   const judge = async (where) => {
     const {checked, violations} = await page.evaluate(judged);

@@ -65,7 +65,9 @@ function difference(a, b, {left, top, right, bottom}) {
 const CALM = 14;   // of 255: what surrounds a speck differs by less
 const APART = 5;   // and a speck is so much darker or lighter than all of it
 
-/** Pixels in a box that differ from all of the calm ring of 16 pixels two steps around them: [x, y]. */
+/**
+ * Pixels in a box that differ from all of the calm ring of 16 pixels two steps around them: [x, y].
+ */
 function specks(picture, {left, top, right, bottom}) {
   const {data, width, channels} = picture;
   const light = (x, y) => {
@@ -77,7 +79,8 @@ function specks(picture, {left, top, right, bottom}) {
     for (let x = Math.round(left); x < right; ++x) {
       const ring = [];
       for (let k = -2; k < 2; ++k) {
-        ring.push(light(x + k, y - 2), light(x + 2, y + k), light(x - k, y + 2), light(x - 2, y - k));
+        ring.push(light(x + k, y - 2), light(x + 2, y + k), light(x - k, y + 2),
+            light(x - 2, y - k));
       }
       const [low, high] = [Math.min(...ring), Math.max(...ring)];
       const is = light(x, y);

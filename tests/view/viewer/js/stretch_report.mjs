@@ -2,9 +2,11 @@
 //
 // tones: for each speed a tone of 220 Hz that lasts 2 s of the result: its pitch in Hz, its level
 //   against the original, and the largest change from sample to sample against that of the tone.
-// bursts: for each speed, when bursts of noise at 0.5, 1.0 and 1.5 s of the clip begin in the result,
+// bursts: for each speed, when bursts of noise at 0.5, 1.0 and 1.5 s of the clip begin in the
+// result,
 //   in seconds of the clip.
-// loop: the pitch of a loop that does not hold whole periods, and when a burst in it comes, in seconds
+// loop: the pitch of a loop that does not hold whole periods, and when a burst in it comes, in
+// seconds
 //   of the result.
 import {Stretcher} from '../../../../tools/view/viewer/js/stretch.js';
 

@@ -1,5 +1,5 @@
-// node turns_report.mjs VALUE...: what tools/view/viewer/js/turns.js makes of a FAP 49 that is coded as
-// these values: {clip: [...], stream: [...]}, rounded as fap/turns.h rounds.
+// node turns_report.mjs VALUE...: what tools/view/viewer/js/turns.js makes of a FAP 49 that is
+// coded as these values: {clip: [...], stream: [...]}, rounded as fap/turns.h rounds.
 import {easedTurns, TurnSmoother} from '../../../../tools/view/viewer/js/turns.js';
 
 const coded = process.argv.slice(2).map(Number);

@@ -1,24 +1,31 @@
-// node viewer_report.js looks|other|tracks|sound|speeds|texts|says|screens|axe|picture|live PAGE.html FOLDER: what Chromium makes of a page, as
+// node viewer_report.js looks|other|tracks|sound|speeds|texts|says|screens|axe|picture|live
+// PAGE.html FOLDER: what Chromium makes of a page, as
 // JSON.
 //
 // looks: vertices of the frames 0 .. 7 as 32-bit floats in FOLDER/<part>_<frame>.f32; how much the
-//   mouth and the forehead change between the frames 0 and 1; `specks` of these frames and of frame 2, [x, y],
+//   mouth and the forehead change between the frames 0 and 1; `specks` of these frames and of frame
+//   2, [x, y],
 //   below the nose.
 // other: the same vertices of the second head of a page, chosen by the keyboard; `list` of heads.
-// tracks: plays five seconds and a half; behind two and a half the menu of languages chooses the second; `list` of
+// tracks: plays five seconds and a half; behind two and a half the menu of languages chooses the
+// second; `list` of
 //   the menu, the state when the first is `back`, and where the address `asked` for German.
 // sound: plays ten seconds; each picture against what is heard then, told by the clicks.
-// speeds: the same without a head, three seconds of the clip at half and at double speed; `pitches` in Hz, of
+// speeds: the same without a head, three seconds of the clip at half and at double speed; `pitches`
+// in Hz, of
 //   the first 80 ms of each burst.
 // texts: what is shown where names are hostile; the ways to compare; what works without a head.
 // says: what is said at some times, and how many pixels of the wave are drawn at others.
-// screens: at the sizes of screens, what is to be hit or read: {size: {width (of the page), targets: [{name,
-//   width, height}], outside: [names], overlaps: [pairs of names], chin, said (from the top: where faces end,
+// screens: at the sizes of screens, what is to be hit or read: {size: {width (of the page),
+// targets: [{name,
+//   width, height}], outside: [names], overlaps: [pairs of names], chin, said (from the top: where
+//   faces end,
 //   where what is said begins), legend}}; the lying ones show the distance.
-// axe: what axe-core finds wrong at the sizes of a desktop and a phone, light, dark and with the help open:
+// axe: what axe-core finds wrong at the sizes of a desktop and a phone, light, dark and with the
+// help open:
 //   {checked: how many elements passed, violations: [texts]}.
-// picture: the canvas of frame 0, 20 degrees to the left, as R, G, B in FOLDER/picture.rgb; {width, height}.
-// live: `result` of a page with values of its own.
+// picture: the canvas of frame 0, 20 degrees to the left, as R, G, B in FOLDER/picture.rgb; {width,
+// height}. live: `result` of a page with values of its own.
 // All have `messages`: what the console said.
 'use strict';
 
@@ -114,10 +121,12 @@ async function press(page, key, code, number) {
 async function other(page, file, folder) {
   await page.resize(390, 844);
   await open(page, file, '?frame=0&mode=first');
-  const list = await page.evaluate(`[...document.getElementById('heads').options].map((o) => o.text)`);
+  const list =
+      await page.evaluate(`[...document.getElementById('heads').options].map((o) => o.text)`);
   await page.evaluate(`document.getElementById('heads').focus()`);
   await press(page, 'ArrowDown', 'ArrowDown', 40);
-  await page.wait(`window.animeme.state().whose === document.getElementById('heads').options[1].text`);
+  await page.wait(
+      `window.animeme.state().whose === document.getElementById('heads').options[1].text`);
   await vertices(page, folder);
   await page.screenshot(path.join(folder, 'other.png'));
   return {list, state: await page.evaluate('window.animeme.state()')};
@@ -159,7 +168,8 @@ async function listen(tap, seconds, change = Infinity) {
   while (animeme.state().position < seconds && performance.now() < end) {
     await new Promise((next) => setTimeout(next, 5));
     const {playing, frame, clock, lang, position} = animeme.state();
-    if (playing) pictures.set(clock, {frame, clock, lang, said: document.getElementById('now').textContent});
+    if (playing) pictures.set(clock, {frame, clock, lang,
+        said: document.getElementById('now').textContent});
     if (position < change) continue;
     change = Infinity;
     const menu = document.getElementById('tracks');
@@ -185,7 +195,8 @@ async function tracks(page, file) {
   await page.resize(240, 480);
   await page.send('Page.setBypassCSP', {enabled: true});
   await open(page, file, '?nohead&mode=first');
-  const list = await page.evaluate(`[...document.getElementById('tracks').options].map((o) => o.text)`);
+  const list =
+      await page.evaluate(`[...document.getElementById('tracks').options].map((o) => o.text)`);
   const report = {list, ...await page.evaluate(listen, TAP, 5.5, 2.5)};
   await page.evaluate('window.animeme.showTrack(0)');
   report.back = await page.evaluate('window.animeme.state()');
@@ -267,7 +278,8 @@ async function says(page, file, folder) {
   await page.resize(1280, 720);
   await open(page, file, '?mode=first&faps=3');
   const report = {said: {}, wave: await page.evaluate(waveAt, [0.55, 1.1, 1.55, 2.1])};
-  for (const time of [0.5, 0.8, 1.15, 1.3, 2.5, 3.1]) report.said[time] = await page.evaluate(saidAt, time);
+  for (const time of [0.5, 0.8, 1.15, 1.3, 2.5, 3.1]) report.said[time] =
+      await page.evaluate(saidAt, time);
   await page.evaluate(saidAt, 1.15);
   await page.screenshot(path.join(folder, 'says.png'));
   return report;
@@ -326,7 +338,8 @@ async function screens(page, file, folder) {
     await open(page, file, `?t=0.1&loop=0.2-0.4&faps=3,48${mode}`);
     await page.evaluate('window.animeme.draw()');
     await page.screenshot(path.join(folder, `${width}x${height}.png`));
-    report[`${width}x${height}`] = {touch, ...await page.evaluate(measure), ...await page.evaluate(lowest)};
+    report[`${width}x${height}`] = {touch, ...await page.evaluate(measure),
+        ...await page.evaluate(lowest)};
   }
   return report;
 }
@@ -362,7 +375,8 @@ async function main([kind, file, folder]) {
   const browser = await launch({flags: FLAGS});
   try {
     const page = await browser.open();
-    const report = await {looks, other, tracks, sound, speeds, texts, says, screens, axe, picture, live}[kind](page, path.resolve(file), folder, open);
+    const report = await {looks, other, tracks, sound, speeds, texts, says, screens, axe, picture,
+        live}[kind](page, path.resolve(file), folder, open);
     report.messages = page.messages;
     process.stdout.write(JSON.stringify(report) + '\n');
   } finally {

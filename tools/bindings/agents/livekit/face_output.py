@@ -1,11 +1,13 @@
-"""A face for LiveKit Agents: an audio output that stands in front of the room's and sends the face that belongs to the
+"""A face for LiveKit Agents: an audio output that stands in front of the room's and sends the face
+that belongs to the
 sound on a data channel.
 
     await session.start(agent=agent, room=ctx.room)
     session.output.audio = FaceOutput(session.output.audio, ctx.room)
 
-Written for `livekit.agents.voice.io.AudioOutput` with label, capabilities and next_in_chain (livekit/agents, pull
-requests 3269 and 4211) and `LocalParticipant.publish_data` of livekit-rtc. README.md tells what pages do with it.
+Written for `livekit.agents.voice.io.AudioOutput` with label, capabilities and next_in_chain
+(livekit/agents, pull requests 3269 and 4211) and `LocalParticipant.publish_data` of livekit-rtc.
+README.md tells what pages do with it.
 """
 from __future__ import annotations
 
@@ -36,11 +38,12 @@ class FaceOutput(io.AudioOutput):
     next_in_chain: the output that plays the sound: its playback events tell what was heard.
     room: to whose participants the face is sent.
     destinations: identities of those who get it; none: all.
-    waiting: pieces of sound that may wait to be listened to, and messages to be sent; then capture_frame() waits, too.
-    options: of FaceTrack.
+    waiting: pieces of sound that may wait to be listened to, and messages to be sent; then
+    capture_frame() waits, too. options: of FaceTrack.
     """
 
-    def __init__(self, next_in_chain: io.AudioOutput, room: rtc.Room, *, destinations: tuple[str, ...] = (),
+    def __init__(self, next_in_chain: io.AudioOutput, room: rtc.Room, *,
+        destinations: tuple[str, ...] = (),
                  waiting: int = 256, **options) -> None:
         # Without pauses: a page whose clock runs on would move a silent mouth.
         super().__init__(label="AnimemeFace", capabilities=io.AudioOutputCapabilities(pause=False),
@@ -58,12 +61,13 @@ class FaceOutput(io.AudioOutput):
         self._busy = 0  # jobs and messages that are neither waiting nor done
         self._capturing = False
         self._segment = 0  # number of the one that is or was captured
-        self._listened = self._played = 0  # of the one that the face has heard of, and of the one that plays
+        # of the one that the face has heard of, and of the one that plays
+        self._listened = self._played = 0
         self._uncut = False  # an interruption that the face does not know yet
         self._missed = False  # messages that were not sent
         self._failed = False
-        # Of the segment, as it was sent, for those who join in the middle of it: what begins it, units by their
-        # times, and when the sound of which sample began to play.
+        # Of the segment, as it was sent, for those who join in the middle of it: what begins it,
+        # units by their times, and when the sound of which sample began to play.
         self._face_begun: list[tuple] = []
         self._face_sent: list[tuple] = []  # (time, intra, message)
         self._face_started: Optional[tuple[float, int]] = None
@@ -100,7 +104,8 @@ class FaceOutput(io.AudioOutput):
         self._capturing = False
 
     def clear_buffer(self) -> None:
-        """What was not sent yet is dropped; how much was heard comes with on_playback_finished()."""
+        """What was not sent yet is dropped; how much was heard comes with
+        on_playback_finished()."""
         self._generation += 1
         self._capturing, self._uncut = False, bool(self._tasks)
         self._work = deque(job for job in self._work if job[1] == "cut")
@@ -113,7 +118,8 @@ class FaceOutput(io.AudioOutput):
         self._do("playing", self._segment)
 
     def on_playback_finished(self, *, playback_position: float, interrupted: bool, **more) -> None:
-        super().on_playback_finished(playback_position=playback_position, interrupted=interrupted, **more)
+        super().on_playback_finished(playback_position=playback_position, interrupted=interrupted,
+            **more)
         if interrupted and self._uncut:
             self._cut(playback_position)
 
@@ -127,7 +133,8 @@ class FaceOutput(io.AudioOutput):
     async def drained(self) -> None:
         """Returns when all that was captured has been listened to and sent."""
         async with self._changed:
-            await self._changed.wait_for(lambda: not (self._work or self._out or self._busy) or self._failed)
+            await self._changed.wait_for(lambda: not (self._work or self._out or self._busy)
+                or self._failed)
 
     # --- what happens in tasks
 
@@ -182,7 +189,8 @@ class FaceOutput(io.AudioOutput):
                 generation, what, value = await self._take("_work")
                 messages = await self._job(what, value)
                 # Interrupted meanwhile: nobody is to see it.
-                await self._done(messages if what == "cut" or generation == self._generation else [])
+                await self._done(messages if what == "cut" or generation == self._generation
+                    else [])
         except asyncio.CancelledError:
             raise
         except Exception:
@@ -252,7 +260,8 @@ class FaceOutput(io.AudioOutput):
             self._face_sent.append((at, intra, message))
 
     def _for_newcomer(self) -> list[tuple]:
-        """The segment from the face on that is to be seen now: units are sent long before they are due."""
+        """The segment from the face on that is to be seen now: units are sent long before they are
+        due."""
         track, shown = self._track, 0
         messages = [(TOPIC, track.hello()), *self._face_begun]
         if self._face_started:
@@ -264,7 +273,8 @@ class FaceOutput(io.AudioOutput):
             if intra and (at <= shown or number == 0):
                 first = number
         units = [message for _, _, message in self._face_sent[first:]]
-        if units and units[0][13:].startswith(PLANE):  # in the middle of a stream: with what that began with
+        # in the middle of a stream: with what that began with
+        if units and units[0][13:].startswith(PLANE):
             for _, _, message in reversed(self._face_sent[:first]):
                 if not message[13:].startswith(PLANE):
                     head = message[13:message.index(PLANE, 13)]
@@ -293,6 +303,7 @@ class FaceOutput(io.AudioOutput):
             await self._room.local_participant.publish_data(message, reliable=True, topic=topic,
                                                             destination_identities=self._destinations)
             self._keep(topic, intra, message)
-        except Exception as problem:  # not connected just now: on with the next plane where one can begin
+        # not connected just now: on with the next plane where one can begin
+        except Exception as problem:
             logger.debug("a message of the face was not sent: %s", problem)
             self._missed = self._missed or unit

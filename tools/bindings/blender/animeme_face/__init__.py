@@ -1,7 +1,7 @@
 """Animeme in Blender: File > Import of faces (.fba, .fap, .mp4 ...) onto meshes with shape keys.
 
-The program `animeme` reads the files; here its curves become keyframes. `operators.py` has what Blender
-calls, the other modules what it needs.
+The program `animeme` reads the files; here its curves become keyframes. `operators.py` has what
+Blender calls, the other modules what it needs.
 """
 
 bl_info = {
@@ -17,7 +17,8 @@ bl_info = {
 import importlib
 import sys
 
-# In the order in which they import each other; all anew after an update of the add-on or Reload Scripts.
+# In the order in which they import each other; all anew after an update of the add-on or Reload
+# Scripts.
 for _name in "program names clip bones character keys sound own_head apply operators".split():
     _name = f"{__name__}.{_name}"
     if _name in sys.modules:

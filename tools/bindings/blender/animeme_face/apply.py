@@ -40,9 +40,11 @@ def _eye_bones(who, options):
         return []
     roles = [role for role in ("left_eye", "right_eye") if role in who.bones]
     turned = [mesh for mesh in who.meshes
-              if any(_is_gaze(who.meanings[key.name]) for key in character.keys_of(mesh) if key.name in who.meanings)]
+              if any(_is_gaze(who.meanings[key.name]) for key in character.keys_of(mesh) if key.name
+              in who.meanings)]
     if options.eyes == "AUTO":
-        carried = lambda role, mesh: bones.carries(who.armature, who.bones[role], mesh)  # noqa: E731
+        carried = lambda role, mesh: bones.carries(who.armature, who.bones[role],
+            mesh)  # noqa: E731
         roles = [role for role in roles if not any(carried(role, mesh) for mesh in turned)]
     return roles
 
@@ -62,7 +64,8 @@ def _shape_keys(who, mesh, clip, times, name, options, eyes):
     data = mesh.data.shape_keys
     action, count = None, 0
     # Shape keys that would turn an eye once more than its bone does.
-    doubled = options.eyes == "NONE" or any(bones.carries(who.armature, who.bones[role], mesh) for role in eyes)
+    doubled = options.eyes == "NONE" or any(bones.carries(who.armature, who.bones[role], mesh)
+        for role in eyes)
     for key in character.keys_of(mesh):
         meaning = who.meanings.get(key.name)
         if meaning is None or (doubled and _is_gaze(meaning)):
@@ -82,14 +85,19 @@ def _bones(who, clip, times, name, options, eyes):
     """Neck, head, eyes and jaw, as far as they are there and wanted."""
     frame = bones.axes(who.armature, who.bones)
     turns, shifts = {}, {}  # by bone: quaternions; places
-    angles = lambda part: [times.sample(clip.curve(part + axis)) for axis in ("Pitch", "Yaw", "Roll")]  # noqa: E731
-    chosen = {"BOTH": ("neck", "head"), "NECK": ("neck",), "HEAD": ("head",), "NONE": ()}[options.head]
+    angles = lambda part: [times.sample(clip.curve(part + axis)) for axis
+        in ("Pitch", "Yaw", "Roll")]  # noqa: E731
+    chosen = {"BOTH": ("neck", "head"), "NECK": ("neck",), "HEAD": ("head",),
+        "NONE": ()}[options.head]
     chosen = [who.bones[role] for role in chosen if role in who.bones]
     parts = [(bone, "head", 1 / len(chosen)) for bone in chosen]
-    parts += [(who.bones[role], {"left_eye": "leftEye", "right_eye": "rightEye"}[role], 1) for role in eyes]
+    parts += [(who.bones[role], {"left_eye": "leftEye", "right_eye": "rightEye"}[role], 1) for role
+        in eyes]
     for bone, part, share in parts:
-        # Live Link Face turns to the person's right, and rolls to the left, where we turn left and roll right.
-        turns[bone] = [bones.turn(who.armature, bone, frame, pitch * share, -yaw * share, -roll * share)
+        # Live Link Face turns to the person's right, and rolls to the left, where we turn left and
+        # roll right.
+        turns[bone] = [bones.turn(who.armature, bone, frame, pitch * share, -yaw * share,
+            -roll * share)
                        for pitch, yaw, roll in zip(*angles(part))]
     if options.jaw and "jaw" in who.bones:
         _jaw(who, clip, times, frame, options, turns, shifts)
@@ -110,16 +118,20 @@ def _jaw(who, clip, times, frame, options, turns, shifts):
     """The jaw's bone, if a mesh that it does not carry has the shape of the open jaw."""
     bone = who.bones["jaw"]
     for mesh in who.meshes:
-        found = {who.meanings[key.name].curves[0]: key for key in character.keys_of(mesh) if key.name in who.meanings}
+        found = {who.meanings[key.name].curves[0]: key for key in character.keys_of(mesh)
+            if key.name in who.meanings}
         opening = found.get("jawOpen") or found.get("open_jaw")
         if opening is None or bones.carries(who.armature, bone, mesh):
             continue
         jaw = bones.Jaw(who.armature, bone, frame, mesh, opening)
-        weights = lambda key: times.sample(_value(who.meanings[key.name], clip, options.fap_units))  # noqa: E731
+        weights = lambda key: times.sample(_value(who.meanings[key.name], clip,
+            options.fap_units))  # noqa: E731
         turns[bone] = [jaw.turn(weight) for weight in weights(opening)]
         aside = [(jaw.shift(found[name]), weights(found[name]))
-                 for name in ("jawForward", "jawLeft", "jawRight", "thrust_jaw", "shift_jaw") if name in found]
-        shifts[bone] = [tuple(sum(step[axis] * values[i] for step, values in aside) for axis in range(3))
+                 for name in ("jawForward", "jawLeft", "jawRight", "thrust_jaw", "shift_jaw")
+                 if name in found]
+        shifts[bone] = [tuple(sum(step[axis] * values[i] for step, values in aside) for axis
+            in range(3))
                         for i in range(len(times.frames))]
         return
 

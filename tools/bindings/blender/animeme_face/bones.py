@@ -1,6 +1,7 @@
 """Bones of a head: which they are, and how they turn.
 
-A character looks along -Y with Z up in Blender; where it is turned in the scene is told by its eyes.
+A character looks along -Y with Z up in Blender; where it is turned in the scene is told by its
+eyes.
 """
 
 from mathutils import Matrix, Vector
@@ -46,13 +47,15 @@ def carries(armature, bone, mesh):
         return True
     group = mesh.vertex_groups.get(bone)
     return group is not None and any(
-        part.group == group.index and part.weight > 0.05 for vertex in mesh.data.vertices for part in vertex.groups
+        part.group == group.index and part.weight > 0.05 for vertex in mesh.data.vertices for part
+        in vertex.groups
     )
 
 
 def _world(armature, bone):
     """Its axes at rest, in the scene, without sizes."""
-    return (armature.matrix_world.to_3x3() @ armature.data.bones[bone].matrix_local.to_3x3()).normalized()
+    return (armature.matrix_world.to_3x3() @ armature.data.bones[bone].matrix_local.to_3x3(
+        )).normalized()
 
 
 def _place(armature, bone):
@@ -73,9 +76,11 @@ def axes(armature, roles):
 
 
 def turn(armature, bone, frame, pitch, yaw, roll):
-    """Quaternion of a pose bone for angles in radians: down, to the person's left, to the person's right."""
+    """Quaternion of a pose bone for angles in radians: down, to the person's left, to the person's
+    right."""
     # Yaw outermost, as the program has it (fap/semantics.md, section 1).
-    wanted = Matrix.Rotation(yaw, 3, "Z") @ Matrix.Rotation(pitch, 3, "X") @ Matrix.Rotation(-roll, 3, "Y")
+    wanted = Matrix.Rotation(yaw, 3, "Z") @ Matrix.Rotation(pitch, 3, "X") @ Matrix.Rotation(-roll,
+        3, "Y")
     rest = _world(armature, bone)
     return (rest.inverted() @ frame @ wanted @ frame.transposed() @ rest).to_quaternion()
 
@@ -87,11 +92,13 @@ class Jaw:
     SHARE = 0.8
 
     def __init__(self, armature, bone, frame, mesh, opening):
-        """`opening`: the shape key of the open jaw. Its turn is that nearest to what moves by half of the most."""
+        """`opening`: the shape key of the open jaw. Its turn is that nearest to what moves by half
+        of the most."""
         self.armature, self.bone, self.frame, self.mesh = armature, bone, frame, mesh
         joint = _place(armature, bone)
         into = frame.transposed() @ mesh.matrix_world.to_3x3()
-        arms = [frame.transposed() @ (mesh.matrix_world @ point.co - joint) for point in opening.relative_key.data]
+        arms = [frame.transposed() @ (mesh.matrix_world @ point.co - joint) for point
+            in opening.relative_key.data]
         steps = [into @ step for step in _steps(opening)]
         most = max(step.length for step in steps)
         self.vertices = [v for v, step in enumerate(steps) if step.length > most / 2]
@@ -104,10 +111,12 @@ class Jaw:
         return turn(self.armature, self.bone, self.frame, self.angle * weight, 0, 0)
 
     def shift(self, key):
-        """How far the bone goes for a further key of the jaw at 1 (forward, aside), in its own axes."""
+        """How far the bone goes for a further key of the jaw at 1 (forward, aside), in its own
+        axes."""
         steps = _steps(key)
         step = sum((steps[v] for v in self.vertices), Vector()) / max(len(self.vertices), 1)
-        axes_ = self.armature.matrix_world.to_3x3() @ self.armature.data.bones[self.bone].matrix_local.to_3x3()
+        axes_ = self.armature.matrix_world.to_3x3() @ self.armature.data.bones[
+            self.bone].matrix_local.to_3x3()
         return axes_.inverted() @ self.mesh.matrix_world.to_3x3() @ step
 
 

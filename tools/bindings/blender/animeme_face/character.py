@@ -35,7 +35,8 @@ def armature_of(item):
 
 
 def find(selected):
-    """The character of the selected objects: what lies under them, or under the armature of one. None: nobody."""
+    """The character of the selected objects: what lies under them, or under the armature of one.
+    None: nobody."""
     roots = {armature_of(item) or item for item in selected}
     found = []
     for item in sorted(roots, key=lambda root: root.name):
@@ -54,5 +55,6 @@ def find(selected):
     meshes = [mesh for mesh in meshes if any(key.name in meanings for key in keys_of(mesh))]
     if not meshes:
         return None
-    armature = next((armature_of(mesh) for mesh in meshes if armature_of(mesh)), armatures[0] if armatures else None)
+    armature = next((armature_of(mesh) for mesh in meshes if armature_of(mesh)),
+        armatures[0] if armatures else None)
     return Character(meshes, meanings, armature, bones.find(armature) if armature else {})

@@ -1,4 +1,5 @@
-"""A clip as values a frame, by name. The program decodes, fills and fits; here its outputs are read."""
+"""A clip as values a frame, by name. The program decodes, fills and fits; here its outputs are
+read."""
 
 import json
 import os
@@ -44,7 +45,8 @@ def _table(program, path, what, folder):
         table = json.load(file)
     if table["format"] != "animeme-" + what or table["version"] != 1:
         found = f"{table['format']} {table['version']}"
-        raise Trouble(f"{path}: animeme writes {found}, which this add-on does not support; update it")
+        raise Trouble(
+            f"{path}: animeme writes {found}, which this add-on does not support; update it")
     rows = table["frames"]
     if not rows:
         raise Trouble(f"{path}: the face has no frame")
@@ -52,7 +54,8 @@ def _table(program, path, what, folder):
 
 
 def _faps(program, path, folder, rate):
-    """FAPs 3 to 68 of a text in which each frame has all of them: a line of flags, a line of values."""
+    """FAPs 3 to 68 of a text in which each frame has all of them: a line of flags, a line of
+    values."""
     out = os.path.join(folder, "all.fap")
     run(program, "decode", path, "--fill", "--expand", "--exact", "-o", out)
     with open(out, encoding="utf-8") as file:
@@ -71,5 +74,6 @@ def _faps(program, path, folder, rate):
 
 def _join(clip, other, path):
     if other.frames != clip.frames or other.rate != clip.rate:
-        raise Trouble(f"{path}: {clip.frames} frames of shapes, but {other.frames} of visemes or FAPs; update animeme")
+        raise Trouble(
+            f"{path}: {clip.frames} frames of shapes, but {other.frames} of visemes or FAPs; update animeme")
     clip.curves.update(other.curves)

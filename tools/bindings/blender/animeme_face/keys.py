@@ -19,7 +19,8 @@ def set_rate(scene, rate):
 
 
 class Times:
-    """Frames of a scene, from `start` to the last of a clip, and where in the clip each of them is."""
+    """Frames of a scene, from `start` to the last of a clip, and where in the clip each of them
+    is."""
 
     def __init__(self, start, count, clip_rate, scene_rate):
         step = clip_rate / scene_rate
@@ -37,11 +38,13 @@ class Times:
         """The clip's values there, on lines between its frames."""
         if len(values) == 1:
             return [values[0]] * len(self.places)
-        return [values[i] if part == 0 else values[i] * (1 - part) + values[i + 1] * part for i, part in self.places]
+        return [values[i] if part == 0 else values[i] * (1 - part) + values[i + 1] * part for i,
+            part in self.places]
 
 
 def new_action(owner, name):
-    """An action of its own for `owner`. One of an earlier import stays in the file, others play on below as strips."""
+    """An action of its own for `owner`. One of an earlier import stays in the file, others play on
+    below as strips."""
     data = owner.animation_data or owner.animation_data_create()
     if data.action and MARK not in data.action:
         track = data.nla_tracks.new()
@@ -60,7 +63,8 @@ def write(action, path, index, group, frames, values):
         frames, values = frames[:1], values[:1]
     curve = action.fcurves.new(path, index=index, action_group=group)
     curve.keyframe_points.add(len(values))
-    curve.keyframe_points.foreach_set("co", [number for pair in zip(frames, values) for number in pair])
+    curve.keyframe_points.foreach_set("co", [number for pair in zip(frames, values) for number
+        in pair])
     curve.keyframe_points.foreach_set("interpolation", [LINEAR] * len(values))
     curve.update()
     return curve

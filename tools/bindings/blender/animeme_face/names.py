@@ -1,4 +1,5 @@
-"""What the names of shape keys mean: ARKit's shapes, visemes and FAPs, in the spellings of exporters and rigs.
+"""What the names of shape keys mean: ARKit's shapes, visemes and FAPs, in the spellings of
+exporters and rigs.
 
 The same rules as the program's own reader of glTF (tools/view/gltf/shape_names.h), but for moods.
 """
@@ -87,7 +88,8 @@ class Meaning:
 
 def words_of(name):
     """Words in small letters: "Wolf3D_eyeBlink_L" is wolf3d, eye, blink, left."""
-    text = re.sub(r"(?<=[a-z])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", " ", name.replace("ARKit", "Arkit"))
+    text = re.sub(r"(?<=[a-z])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", " ",
+        name.replace("ARKit", "Arkit"))
     sides = {"l": "left", "r": "right"}
     return [sides.get(word, word) for word in re.sub(r"[\W_]+", " ", text).lower().split()]
 
@@ -139,12 +141,15 @@ def meaning_of(name):
 def choose(names):
     """Which of the keys of a character are used: {name: Meaning}.
 
-    ARKit's first. Visemes move the mouth where ARKit's jaw is missing. Other names only for what no shape of
+    ARKit's first. Visemes move the mouth where ARKit's jaw is missing. Other names only for what no
+    shape of
     ARKit does.
     """
     known = {name: meaning_of(name) for name in names}
-    shapes = {curve for meaning in known.values() if meaning and meaning.kind == "arkit" for curve in meaning.curves}
-    visemes = any(meaning and meaning.kind == "viseme" for meaning in known.values()) and "jawOpen" not in shapes
+    shapes = {curve for meaning in known.values() if meaning and meaning.kind == "arkit" for curve
+        in meaning.curves}
+    visemes = any(meaning and meaning.kind == "viseme" for meaning
+        in known.values()) and "jawOpen" not in shapes
     mouth = shapes | ({"jawOpen"} if visemes else set())
 
     def used(meaning):

@@ -35,14 +35,16 @@ class Preferences(bpy.types.AddonPreferences):
 
 
 class ImportFace(bpy.types.Operator, ImportHelper):
-    """Import a talking face onto the selected character: its shape keys, its bones, and the sound"""
+    """Import a talking face onto the selected character: its shape keys, its bones, and the
+    sound"""
 
     bl_idname = "import_scene.animeme"
     bl_label = "Import talking face"
     bl_options = {"REGISTER", "UNDO", "PRESET"}
 
     filter_glob: StringProperty(default=ENDINGS, options={"HIDDEN"})
-    frame_start: IntProperty(name="Start frame", default=1, description="Frame of the scene at which the clip begins")
+    frame_start: IntProperty(name="Start frame", default=1,
+        description="Frame of the scene at which the clip begins")
     rate: EnumProperty(
         name="Rate", default="KEEP",
         items=[("KEEP", "The scene's", "Keep the scene's frame rate; the clip is resampled"),
@@ -50,7 +52,8 @@ class ImportFace(bpy.types.Operator, ImportHelper):
     )
     use_range: BoolProperty(name="Extend the scene", default=True,
                             description="Extend the end of the scene to that of the clip")
-    use_sound: BoolProperty(name="Sound", default=True, description="Put the sound into the sequencer")
+    use_sound: BoolProperty(name="Sound", default=True,
+        description="Put the sound into the sequencer")
     sound_path: StringProperty(
         name="Sound file", options={"SKIP_SAVE"},
         description="Empty: the clip's own, or a sound file of the same name next to it",
@@ -72,20 +75,23 @@ class ImportFace(bpy.types.Operator, ImportHelper):
     fap_scale: EnumProperty(
         name="FAP keys at 1", default="UNITS",
         items=[("UNITS", "Units", "A key named like a FAP shows this many FAP units at 1"),
-               ("RANGE", "End of its range", "A key named like a FAP shows the end of its usual range at 1")],
+               ("RANGE", "End of its range",
+               "A key named like a FAP shows the end of its usual range at 1")],
     )
     fap_units: FloatProperty(name="Units", default=1024, min=1, soft_max=100000,
                              description="FAP units at 1: 1024 in heads that Animeme exports")
     own_head: EnumProperty(
         name="Head, if none is selected", default="woman",
         items=[("woman", "Woman", "Make this head"), ("man", "Man", "Make this head"),
-               ("child", "Child", "Make this head"), ("none", "None", "Report that nothing is selected")],
+               ("child", "Child", "Make this head"), ("none", "None",
+               "Report that nothing is selected")],
     )
 
     def draw(self, context):
         layout = self.layout
         layout.use_property_split = True
-        for name in ("frame_start", "rate", "use_range", "use_sound", "sound_path", "head", "eyes", "use_jaw",
+        for name in ("frame_start", "rate", "use_range", "use_sound", "sound_path", "head", "eyes",
+            "use_jaw",
                      "fap_scale"):
             layout.prop(self, name)
         if self.fap_scale == "UNITS":
@@ -97,7 +103,8 @@ class ImportFace(bpy.types.Operator, ImportHelper):
         window.progress_begin(0, 100)
         try:
             with tempfile.TemporaryDirectory(prefix="animeme_") as folder:
-                line = self.run(context, folder, lambda share: window.progress_update(int(100 * share)))
+                line = self.run(context, folder,
+                    lambda share: window.progress_update(int(100 * share)))
             self.report({"INFO"}, line)
         except program.Trouble as trouble:
             self.report({"ERROR"}, str(trouble))
@@ -111,13 +118,17 @@ class ImportFace(bpy.types.Operator, ImportHelper):
         path = bpy.path.abspath(self.filepath)
         animeme = program.find(bpy.path.abspath(setting()))
         who = character.find(context.selected_objects)
-        if who is None and context.selected_objects and any(map(character.keys_of, context.selected_objects)):
-            raise program.Trouble("The selected meshes have no shape key named like an ARKit shape, a viseme or "
+        if who is None and context.selected_objects and any(map(character.keys_of,
+            context.selected_objects)):
+            raise program.Trouble(
+                "The selected meshes have no shape key named like an ARKit shape, a viseme or "
                                   "a FAP (jawOpen, viseme_aa, open_jaw); rename some, or select nothing")
         if who is None and self.own_head == "none":
-            raise program.Trouble("Select a mesh with shape keys, or set 'Head, if none is selected'")
+            raise program.Trouble(
+                "Select a mesh with shape keys, or set 'Head, if none is selected'")
         # The file first: nothing is made for one that cannot be read.
-        face = clip.read(animeme, path, who.wants() if who else set(), lambda share: progress(0.7 * share))
+        face = clip.read(animeme, path, who.wants() if who else set(),
+            lambda share: progress(0.7 * share))
         heard = None
         if self.use_sound:
             try:
@@ -156,7 +167,8 @@ class Panel(bpy.types.Panel):
         who = character.find(context.selected_objects)
         kinds = {meaning.kind for meaning in who.meanings.values()} if who else set()
         names = {"arkit": "ARKit", "viseme": "visemes", "fap": "FAPs", "other": "other names"}
-        self.layout.label(text=f"{len(who.meanings)} shapes: " + ", ".join(names[kind] for kind in sorted(kinds))
+        self.layout.label(text=f"{len(who.meanings)} shapes: "
+            + ", ".join(names[kind] for kind in sorted(kinds))
                           if who else "No shapes selected: creates a head")
         self.layout.operator(ImportFace.bl_idname, icon="IMPORT")
 

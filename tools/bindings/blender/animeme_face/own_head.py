@@ -24,7 +24,8 @@ def _old_names():
 def make(program, which):
     """Imports the head woman, man or child, with its shapes and bones; its objects."""
     if not hasattr(bpy.types, "IMPORT_SCENE_OT_gltf"):
-        raise Trouble("Heads are glTF files: enable the add-on glTF 2.0, or select a mesh with shape keys")
+        raise Trouble(
+            "Heads are glTF files: enable the add-on glTF 2.0, or select a mesh with shape keys")
     _old_names()
     before, actions = set(bpy.data.objects), set(bpy.data.actions)
     with tempfile.TemporaryDirectory(prefix="animeme_") as folder:

@@ -10,7 +10,8 @@ SOUNDS = (".wav", ".flac", ".mp3", ".m4a", ".aac", ".ogg", ".opus")
 
 
 def find(program, path, given, folder):
-    """A sound file that begins when the face does, None for silence: the one given, the clip itself, one of its name
+    """A sound file that begins when the face does, None for silence: the one given, the clip
+    itself, one of its name
     beside it. Where Blender would be late or early by itself, one in `folder`."""
     if given:
         return given
@@ -31,9 +32,12 @@ def _starts(program, path):
 
 
 def _cut(program, path, folder):
-    """Fragments, Matroska and streams have the samples before the sound in ways of their own, which Blender does not
-    know: the program writes an MP4 that has them in one, and what is before the face is cut off or filled up."""
-    plain, out = os.path.join(folder, "plain.mp4"), os.path.join(folder, os.path.basename(path) + ".wav")
+    """Fragments, Matroska and streams have the samples before the sound in ways of their own, which
+    Blender does not
+    know: the program writes an MP4 that has them in one, and what is before the face is cut off or
+    filled up."""
+    plain, out = os.path.join(folder, "plain.mp4"), os.path.join(folder,
+        os.path.basename(path) + ".wav")
     try:
         run(program, "mux", path, path, "--audio-codec", "copy", "-o", plain)
     except Trouble:
@@ -42,7 +46,8 @@ def _cut(program, path, folder):
     start = _starts(program, plain)
     with wave.open(out) as file:
         form, samples = file.getparams(), file.readframes(file.getnframes())
-    late = round((start["audio"] - start["face"]) * form.framerate) * form.nchannels * form.sampwidth
+    late = round(
+        (start["audio"] - start["face"]) * form.framerate) * form.nchannels * form.sampwidth
     with wave.open(out, "wb") as file:
         file.setparams(form)
         file.writeframes(bytes(max(late, 0)) + samples[max(-late, 0):])
@@ -55,13 +60,15 @@ def strips_of(editor):
 
 
 def add(scene, name, path, frame, pack):
-    """A strip from `frame` on, in the lowest channel that is free there. Packed, the .blend file has it inside."""
+    """A strip from `frame` on, in the lowest channel that is free there. Packed, the .blend file
+    has it inside."""
     editor = scene.sequence_editor or scene.sequence_editor_create()
     strips = strips_of(editor)
     strip = strips.new_sound(name, path, 1, frame)
     if pack:
         strip.sound.pack()
-    taken = {other.channel for other in strips if other != strip and other.frame_final_start < strip.frame_final_end
+    taken = {other.channel for other in strips if other != strip
+        and other.frame_final_start < strip.frame_final_end
              and strip.frame_final_start < other.frame_final_end}
     strip.channel = next(channel for channel in range(1, 129) if channel not in taken)
     # Without it the picture lags behind the sound where drawing takes long.

@@ -1,8 +1,12 @@
 // Walking the boxes of ISO files. Content lies from `begin` to `end`.
 
-export const typeAt = (view, at) => String.fromCharCode(...new Uint8Array(view.buffer, view.byteOffset + at, 4));
+export const typeAt = (view, at) => String.fromCharCode(...new Uint8Array(view.buffer,
+    view.byteOffset + at, 4));
 
-/** The box at `at`: {type, begin, end}; null if less than its header is there. It may end beyond the bytes. */
+/**
+ * The box at `at`: {type, begin, end}; null if less than its header is there. It may end beyond the
+ * bytes.
+ */
 export function boxAt(view, at) {
   if (at + 8 > view.byteLength) return null;
   let size = view.getUint32(at), header = 8;
@@ -36,4 +40,5 @@ export function find(view, box, ...path) {
 }
 
 /** Version and flags of a full box. */
-export const fullBox = (view, {begin}) => ({version: view.getUint8(begin), flags: view.getUint32(begin) & 0xFFFFFF});
+export const fullBox = (view, {begin}) => ({version: view.getUint8(begin),
+    flags: view.getUint32(begin) & 0xFFFFFF});

@@ -18,7 +18,10 @@ export function roomOf(module) {
   return rooms.get(module);
 }
 
-/** Push bytes of an FBA stream, pull what its planes code; with {shown: true} what a receiver shows then. */
+/**
+ * Push bytes of an FBA stream, pull what its planes code; with {shown: true} what a receiver shows
+ * then.
+ */
 export class Decoder extends Handle {
   constructor({shown = false, bodies = false} = {}) {
     const module = library('decoder');
@@ -31,12 +34,15 @@ export class Decoder extends Handle {
   }
 
   push(bytes) {
-    this.library.with(bytes, (at, size) => this.library.call('decoder_push', this.handle, at, size));
+    this.library.with(bytes, (at, size) => this.library.call('decoder_push', this.handle, at,
+        size));
   }
 
   finish() { this.library.call('decoder_finish', this.handle); }
 
-  /** The next frame; null: push more, or it is over (`ended`). Throws at damage, and goes on behind it when called
+  /**
+   * The next frame; null: push more, or it is over (`ended`). Throws at damage, and goes on behind
+   * it when called
       again. */
   next() {
     const {frame, body} = this.room;
@@ -72,9 +78,14 @@ export class Decoder extends Handle {
   }
 }
 
-/** From coded frames to what is shown: FAPs that are not sent are held, mirrored, or follow the other lip. */
+/**
+ * From coded frames to what is shown: FAPs that are not sent are held, mirrored, or follow the
+ * other lip.
+ */
 export class Receiver extends Handle {
-  /** `expand`: FAP 1 and 2 become low-level FAPs; `complete`: what was never sent is there, at 0. */
+  /**
+   * `expand`: FAP 1 and 2 become low-level FAPs; `complete`: what was never sent is there, at 0.
+   */
   constructor({expand = true, complete = true} = {}) {
     const module = library('decoder');
     const flags = (expand ? EXPAND : KEEP_HIGH_LEVEL) | (complete ? COMPLETE : 0);

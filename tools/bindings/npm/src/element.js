@@ -16,7 +16,8 @@ const style = `
   audio:not([controls]) { display: none; }
   :host(:hover) audio, audio:focus, :host([paused]) audio { opacity: .9; }
 `;
-const forwarded = ['play', 'pause', 'ended', 'seeked', 'timeupdate', 'volumechange', 'ratechange', 'durationchange'];
+const forwarded = ['play', 'pause', 'ended', 'seeked', 'timeupdate', 'volumechange', 'ratechange',
+    'durationchange'];
 
 function openerOf(url, live) {
   const {protocol, pathname} = new URL(url, document.baseURI);
@@ -44,7 +45,8 @@ export class AnimemeFace extends HTMLElement {
 
   connectedCallback() {
     // A picture; with controls in it a group, as nobody would find them in a picture.
-    if (!this.hasAttribute('role')) this.setAttribute('role', this.audio.controls ? 'group' : 'img');
+    if (!this.hasAttribute('role')) this.setAttribute('role',
+        this.audio.controls ? 'group' : 'img');
     if (!this.hasAttribute('aria-label')) {
       this.setAttribute('aria-label', this.getAttribute('label') ?? 'a talking face');
     }
@@ -85,7 +87,10 @@ export class AnimemeFace extends HTMLElement {
     });
   }
 
-  /** Resolves when the face of `src` was read to its end (of a live one: when it is over), or rejects. */
+  /**
+   * Resolves when the face of `src` was read to its end (of a live one: when it is over), or
+   * rejects.
+   */
   get loaded() { return Promise.resolve(this.pending).then(() => this.loading); }
   /** Resolves when the head is there. */
   get headLoaded() { return Promise.resolve(this.pending).then(() => this.headLoading); }
@@ -121,7 +126,8 @@ export class AnimemeFace extends HTMLElement {
 
   silent() {
     const media = new SilentMedia();
-    for (const name of ['play', 'pause', 'ended', 'seeked']) media.addEventListener(name, () => this.tell(name));
+    for (const name of ['play', 'pause', 'ended', 'seeked']) media.addEventListener(name,
+        () => this.tell(name));
     media.loop = this.hasAttribute('loop');
     this.use(media);
     return media;
@@ -146,10 +152,12 @@ export class AnimemeFace extends HTMLElement {
     this.stop();
     this.opened = src;
     if (!src) return;
-    const url = new URL(src, document.baseURI).href, open = openerOf(src, this.hasAttribute('live'));
+    const url = new URL(src, document.baseURI).href, open = openerOf(src,
+        this.hasAttribute('live'));
     const stopped = this.stopped = new AbortController();
     this.track = new Track();
-    const source = {media: this.audio, silent: () => this.silent(), track: this.track, signal: stopped.signal,
+    const source = {media: this.audio, silent: () => this.silent(), track: this.track,
+        signal: stopped.signal,
       lost: (problem) => this.lose(problem), told: (text) => this.hear(text)};
     if (open === openFba) source.media = this.silent();
     else this.use(this.audio);
@@ -157,7 +165,8 @@ export class AnimemeFace extends HTMLElement {
       this.fitters = {arkit: new ArkitFitter(), visemes: new VisemeFitter()};
       this.startsBySelf = this.hasAttribute('autoplay') || open === openLive;
       return open(url, source);
-    }).then(() => this.tell('load'), (problem) => { if (!stopped.signal.aborted) this.fail(problem); });
+    }).then(() => this.tell('load'), (problem) => { if (!stopped.signal.aborted) this.fail(problem);
+        });
     this.loading.catch(() => {});
   }
 
@@ -175,7 +184,8 @@ export class AnimemeFace extends HTMLElement {
     this.weights.frame = null;
   }
 
-  // What a server tells of its lines, each word when it is heard. Other words are none of our business.
+  // What a server tells of its lines, each word when it is heard. Other words are none of our
+  // business.
   hear(text) {
     let told = null;
     try {
@@ -201,16 +211,19 @@ export class AnimemeFace extends HTMLElement {
 
   tell(name, detail = null) {
     this.toggleAttribute('paused', this.media.paused);
-    this.dispatchEvent(name === 'error' ? Object.assign(new ErrorEvent(name, {error: detail, message: detail?.message}))
+    this.dispatchEvent(name === 'error' ? Object.assign(new ErrorEvent(name,
+        {error: detail, message: detail?.message}))
                                         : new CustomEvent(name, {detail}));
   }
 
   // Plays by itself as soon as there is something to show; browsers may want a gesture first.
   begin() {
     if (!this.startsBySelf || !this.track.frames.length) return;
-    if (this.media === this.audio && this.audio.readyState < HTMLMediaElement.HAVE_CURRENT_DATA) return;
+    if (this.media === this.audio &&
+        this.audio.readyState < HTMLMediaElement.HAVE_CURRENT_DATA) return;
     this.startsBySelf = false;
-    this.play().catch((problem) => { if (problem.name !== 'AbortError') this.tell('blocked', problem); });
+    this.play().catch((problem) => { if (problem.name !== 'AbortError') this.tell('blocked',
+        problem); });
   }
 
   draw() {

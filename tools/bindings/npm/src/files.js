@@ -28,7 +28,9 @@ async function readMp4(response, track) {
   }
 }
 
-/** Plays an mp4 by `media` while its face goes into `track`; resolves when all of the face is there. */
+/**
+ * Plays an mp4 by `media` while its face goes into `track`; resolves when all of the face is there.
+ */
 export async function openMp4(url, {media, track, signal}) {
   media.src = url;
   await readMp4(checked(await fetch(url, {signal})), track);

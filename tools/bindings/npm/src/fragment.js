@@ -18,7 +18,8 @@ function headerOf(view, traf, track) {
       if (flags & 16) header.size = view.getUint32((at += 4) - 4);
       if (flags & 32) header.flags = view.getUint32(at);
     } else if (box.type === 'tfdt') {
-      header.time = version === 1 ? Number(view.getBigUint64(box.begin + 4)) : view.getUint32(box.begin + 4);
+      header.time = version === 1 ? Number(view.getBigUint64(box.begin + 4)) :
+          view.getUint32(box.begin + 4);
     }
   }
   return header;
@@ -44,15 +45,19 @@ function* samplesOfRun(view, trun, header, track, state) {
     if (flags & 0x100) duration = view.getUint32((at += 4) - 4);
     if (flags & 0x200) size = view.getUint32((at += 4) - 4);
     if (flags & 0x400) kind = view.getUint32((at += 4) - 4);
-    if (flags & 0x800) shift = version === 0 ? view.getUint32((at += 4) - 4) : view.getInt32((at += 4) - 4);
+    if (flags & 0x800) shift = version === 0 ? view.getUint32((at += 4) - 4) :
+        view.getInt32((at += 4) - 4);
     yield {offset: state.offset, size, intra: !(kind & NOT_SYNC),
-           time: (state.time + shift) / track.timescale + track.shift, duration: duration / track.timescale};
+           time: (state.time + shift) / track.timescale + track.shift,
+               duration: duration / track.timescale};
     state.offset += size;
     state.time += duration;
   }
 }
 
-/** `at`: where the fragment lies in the file; `next`: the time (ticks) where the one before ended. */
+/**
+ * `at`: where the fragment lies in the file; `next`: the time (ticks) where the one before ended.
+ */
 export function readFragment(view, moof, at, track, next) {
   const samples = [];
   let time = next, left = kMostSamples;

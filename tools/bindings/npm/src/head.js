@@ -1,5 +1,5 @@
-// A head in three.js: morph targets by the names of ARKit's shapes or of Oculus' visemes, and the bones of head and
-// eyes.
+// A head in three.js: morph targets by the names of ARKit's shapes or of Oculus' visemes, and the
+// bones of head and eyes.
 import {Box3, Euler, Quaternion, Vector3} from 'three';
 
 import {arkitNames, visemeNames} from './weights.js';
@@ -13,12 +13,14 @@ const bones = {
 };
 const kJawTurn = 1.61e-4;  // radians for a unit of FAP 3, of our heads (by animeme export)
 
-const plain = (name) => name.replace(/^.*\./, '').replace(/_L$/, 'Left').replace(/_R$/, 'Right').toLowerCase();
+const plain = (name) => name.replace(/^.*\./, '').replace(/_L$/, 'Left').replace(/_R$/,
+    'Right').toLowerCase();
 
 function boneOf(root, patterns, isTaken) {
   for (const pattern of patterns) {
     let found = null;
-    root.traverse((node) => { if (!found && !node.isMesh && pattern.test(node.name) && !isTaken(node)) found = node; });
+    root.traverse((node) => { if (!found && !node.isMesh && pattern.test(node.name) &&
+        !isTaken(node)) found = node; });
     if (found) return {node: found, rest: found.quaternion.clone()};
   }
   return null;
@@ -62,11 +64,15 @@ export class Head {
     return this.shapes.some((binding) => binding.channel === channel);
   }
 
-  /** Weights in the order of arkitNames() (61) and of visemeNames(), and the frame that they are of. */
+  /**
+   * Weights in the order of arkitNames() (61) and of visemeNames(), and the frame that they are of.
+   */
   show(arkit, visemes, frame = null) {
-    for (const {node, index, channel} of this.shapes) node.morphTargetInfluences[index] = arkit[channel];
+    for (const {node, index, channel} of this.shapes) node.morphTargetInfluences[index] =
+        arkit[channel];
     if (this.byVisemes) {
-      for (const {node, index, channel} of this.visemes) node.morphTargetInfluences[index] = visemes[channel];
+      for (const {node, index, channel} of this.visemes) node.morphTargetInfluences[index] =
+          visemes[channel];
     }
     this.turn(this.head, arkit, kYaw);
     // Where shapes move eyes that are part of the face, bones would turn them twice.
@@ -76,12 +82,13 @@ export class Head {
     }
     if (this.jaw && frame) {
       const open = frame.values[2] * kJawTurn;
-      this.jaw.node.quaternion.copy(this.jaw.rest).multiply(quaternion.setFromAxisAngle(xAxis, open));
+      this.jaw.node.quaternion.copy(this.jaw.rest).multiply(quaternion.setFromAxisAngle(xAxis,
+          open));
     }
   }
 
-  // Positive angles: yaw to the person's right, pitch down, roll towards the person's left shoulder. The face looks
-  // along z, its left is at x.
+  // Positive angles: yaw to the person's right, pitch down, roll towards the person's left
+  // shoulder. The face looks along z, its left is at x.
   turn(bone, arkit, channel) {
     if (!bone) return;
     const [yaw, pitch, roll] = arkit.subarray(channel, channel + 3);
@@ -98,7 +105,8 @@ export class Head {
     if (this.head && !this.head.node.name.startsWith('neck')) {
       // A mesh of the whole body: from the bone of the head on.
       const at = this.head.node.getWorldPosition(new Vector3());
-      if (at.y - box.min.y > 0.6 * (box.max.y - box.min.y)) box.min.y = at.y - 0.5 * (box.max.y - at.y);
+      if (at.y - box.min.y > 0.6 * (box.max.y - box.min.y)) box.min.y =
+          at.y - 0.5 * (box.max.y - at.y);
       const half = box.max.y - box.min.y;
       box.min.x = Math.max(box.min.x, at.x - half);
       box.max.x = Math.min(box.max.x, at.x + half);

@@ -1,4 +1,5 @@
-// HLS as `animeme mux -o talk.m3u8` writes it: the sound by MediaSource, the face from its own rendition.
+// HLS as `animeme mux -o talk.m3u8` writes it: the sound by MediaSource, the face from its own
+// rendition.
 import {AnimemeError} from './library.js';
 import {Mp4Reader} from './mp4.js';
 import {SoundBuffer} from './sound.js';
@@ -8,7 +9,8 @@ const kLongest = 86400;  // seconds of a segment
 const kAhead = 30;  // seconds that are loaded in front of the player
 
 const attributes = (text) => Object.fromEntries(
-  [...text.matchAll(/(?:^|,)\s*([A-Z0-9-]+)=("[^"]*"|[^,]*)/g)].map(([, name, value]) => [name, value.replace(/^"|"$/g, '')]));
+  [...text.matchAll(/(?:^|,)\s*([A-Z0-9-]+)=("[^"]*"|[^,]*)/g)].map(([, name, value]) => [name,
+      value.replace(/^"|"$/g, '')]));
 
 function addressOf(text, url) {
   try {
@@ -35,7 +37,8 @@ export function readPlaylist(text, url) {
       out.init = addressOf(attributes(rest).URI ?? '', url);
     } else if (tag === '#EXTINF') {
       duration = parseFloat(rest);
-      if (!(duration >= 0 && duration < kLongest)) throw new AnimemeError('syntax', `${url} has a segment without a length`);
+      if (!(duration >= 0 && duration < kLongest))
+          throw new AnimemeError('syntax', `${url} has a segment without a length`);
     } else if (tag === '#EXT-X-ENDLIST') {
       out.complete = true;
     } else if (line && !line.startsWith('#')) {
@@ -55,16 +58,19 @@ export function readPlaylist(text, url) {
 
 async function load(url, signal) {
   const response = await fetch(url, {signal});
-  if (!response.ok) throw new AnimemeError('io', `${url}: ${response.status} ${response.statusText}`);
+  if (!response.ok)
+      throw new AnimemeError('io', `${url}: ${response.status} ${response.statusText}`);
   return response;
 }
 
-const bytesOf = async (url, signal) => new Uint8Array(await (await load(url, signal)).arrayBuffer());
+const bytesOf = async (url,
+    signal) => new Uint8Array(await (await load(url, signal)).arrayBuffer());
 
 async function playlistOf(url, signal) {
   const list = readPlaylist(await (await load(url, signal)).text(), url);
   if (!list.face && !list.sound && !list.complete) {
-    throw new AnimemeError('unsupported', `${url} is still being written; use the WebSocket for live faces`);
+    throw new AnimemeError('unsupported',
+        `${url} is still being written; use the WebSocket for live faces`);
   }
   return list;
 }
@@ -98,7 +104,8 @@ async function openFace(url, media, track, signal) {
     const reader = new Mp4Reader();
     reader.push(init);
     reader.finish();
-    const decoder = new UnitDecoder(reader.track.config);  // each segment begins with an intra plane
+    // each segment begins with an intra plane
+    const decoder = new UnitDecoder(reader.track.config);
     for (const unit of reader.push(bytes)) track.add(decoder.decode(unit));
     decoder.free();
   });

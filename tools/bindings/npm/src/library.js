@@ -2,11 +2,15 @@
 import {ERROR_SIZE} from './structs.js';
 
 const STATUS = {
-  '-1': 'invalid_argument', '-2': 'syntax', '-3': 'out_of_range', '-4': 'truncated', '-5': 'unsupported',
+  '-1': 'invalid_argument', '-2': 'syntax', '-3': 'out_of_range', '-4': 'truncated',
+      '-5': 'unsupported',
   '-6': 'not_found', '-7': 'io', '-8': 'internal', '-9': 'no_memory',
 };
 
-/** What failed and where: `code` is a word, `bit` a place in a stream, `line` and `column` one in a text. */
+/**
+ * What failed and where: `code` is a word, `bit` a place in a stream, `line` and `column` one in a
+ * text.
+ */
 export class AnimemeError extends Error {
   constructor(code, message, place = {}) {
     super(message);
@@ -84,12 +88,16 @@ const system = {
 };
 const refused = () => 52;  // ENOSYS
 
-/** Compiles and starts a module: bytes, a Response, a WebAssembly.Module, or a promise of one of them. */
+/**
+ * Compiles and starts a module: bytes, a Response, a WebAssembly.Module, or a promise of one of
+ * them.
+ */
 export async function start(given) {
   const source = await given;
   let module = source;
   if (typeof Response !== 'undefined' && source instanceof Response) {
-    if (!source.ok) throw new AnimemeError('io', `${source.url}: ${source.status} ${source.statusText}`);
+    if (!source.ok)
+        throw new AnimemeError('io', `${source.url}: ${source.status} ${source.statusText}`);
     module = await WebAssembly.compile(await source.arrayBuffer());
   } else if (!(source instanceof WebAssembly.Module)) {
     module = await WebAssembly.compile(source);
@@ -97,7 +105,8 @@ export async function start(given) {
   const imports = {};
   for (const {module: from, name} of WebAssembly.Module.imports(module)) {
     imports[from] ??= {};
-    imports[from][name] = system[name] ?? (name === 'emscripten_notify_memory_growth' ? () => {} : refused);
+    imports[from][name] = system[name] ?? (name === 'emscripten_notify_memory_growth' ? () => {} :
+        refused);
   }
   return new Library(await WebAssembly.instantiate(module, imports));
 }

@@ -12,10 +12,13 @@ const kKeep = 10;      // seconds of frames that are kept
 /** First message of /face. */
 export function readHello(bytes) {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-  if (bytes.length < 10 || bytes[0] !== 0x41) throw new AnimemeError('syntax', 'this is not an animeme server');
-  if (bytes[1] !== 1) throw new AnimemeError('unsupported', `this server speaks version ${bytes[1]} of /face`);
+  if (bytes.length < 10 || bytes[0] !== 0x41)
+      throw new AnimemeError('syntax', 'this is not an animeme server');
+  if (bytes[1] !== 1)
+      throw new AnimemeError('unsupported', `this server speaks version ${bytes[1]} of /face`);
   const size = view.getUint16(8);
-  return {sound: (bytes[3] & 1) !== 0, timescale: view.getUint32(4) || 1, config: bytes.slice(10, 10 + size)};
+  return {sound: (bytes[3] & 1) !== 0, timescale: view.getUint32(4) || 1,
+      config: bytes.slice(10, 10 + size)};
 }
 
 /** Any further one: an access unit; `missed`: units in front of it were dropped. */
@@ -28,7 +31,8 @@ export function readUnit(bytes, timescale) {
   };
 }
 
-// A socket as a queue of messages, words apart from bytes; ends quietly with status 1000, else with an error.
+// A socket as a queue of messages, words apart from bytes; ends quietly with status 1000, else with
+// an error.
 function listen(url, signal, take, told = () => {}) {
   return new Promise((done, fail) => {
     const socket = new WebSocket(url);
@@ -61,7 +65,8 @@ function steer(media, buffer) {
     return;
   }
   buffer.hurries = off > (buffer.hurries ? 0.03 : 0.15);
-  media.playbackRate = buffer.hurries ? 1 + Math.min(0.2, Math.max(0.05, off / 2)) : off < -0.2 ? 0.96 : 1;
+  media.playbackRate = buffer.hurries ? 1 + Math.min(0.2, Math.max(0.05, off / 2)) : off < -0.2 ?
+      0.96 : 1;
 }
 
 const kRetry = [0.25, 0.5, 0.5, 0.5, 1, 1, 2, 4];  // seconds
@@ -94,7 +99,8 @@ async function session(url, {media, silent, track, signal, told}, heard) {
     track.add(decoder?.decode(unit) ?? []);
     if (!hello.sound) {
       player.duration = track.end;
-      if (player.currentTime < track.end - kTarget - kSkip) player.currentTime = track.end - kTarget;
+      if (player.currentTime < track.end - kTarget - kSkip) player.currentTime =
+          track.end - kTarget;
     }
     track.forget(player.currentTime - kKeep);
   };
@@ -114,7 +120,9 @@ async function session(url, {media, silent, track, signal, told}, heard) {
   }
 }
 
-/** Plays what a server sends; resolves when it ends. `url`: of the server (http, ws). A connection that breaks is
+/**
+ * Plays what a server sends; resolves when it ends. `url`: of the server (http, ws). A connection
+ * that breaks is
     opened again (`lost` is told each time), unless there never was one. */
 export async function openLive(url, source) {
   let known = false;
@@ -127,7 +135,8 @@ export async function openLive(url, source) {
     } catch (problem) {
       if (problem.code !== 'io' || !known || source.signal.aborted) throw problem;
       source.lost?.(problem);
-      const wait = kRetry[Math.min(attempt, kRetry.length - 1)] * (0.75 + Math.random() / 2);  // not all at once
+      // not all at once
+      const wait = kRetry[Math.min(attempt, kRetry.length - 1)] * (0.75 + Math.random() / 2);
       await new Promise((done) => setTimeout(done, 1000 * wait));
       if (source.signal.aborted) return undefined;
     }

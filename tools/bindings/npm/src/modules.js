@@ -29,6 +29,7 @@ export function need(name, source) {
 
 /** A module that has been loaded. */
 export function library(name) {
-  if (!loaded[name]) throw new AnimemeError('invalid_argument', 'await ready() first: nothing is loaded yet');
+  if (!loaded[name]) throw new AnimemeError('invalid_argument',
+      'await ready() first: nothing is loaded yet');
   return loaded[name];
 }

@@ -26,10 +26,12 @@ function configurationOf(view, esds) {
   let at = es.begin + 3 + (flags & 0x80 ? 2 : 0) + (flags & 0x20 ? 2 : 0);
   if (flags & 0x40) at += 1 + view.getUint8(at);
   const decoder = descriptorAt(view, at, es.end);
-  if (decoder?.tag !== 4 || decoder.end - decoder.begin < 13 || view.getUint8(decoder.begin) !== 0x20) return null;
+  if (decoder?.tag !== 4 || decoder.end - decoder.begin < 13 ||
+      view.getUint8(decoder.begin) !== 0x20) return null;
   const specific = descriptorAt(view, decoder.begin + 13, decoder.end);
   if (specific?.tag !== 5) return null;
-  return new Uint8Array(view.buffer, view.byteOffset + specific.begin, specific.end - specific.begin).slice();
+  return new Uint8Array(view.buffer, view.byteOffset + specific.begin,
+      specific.end - specific.begin).slice();
 }
 
 /** A face is told from a film by the type of its visual object: 4. */
@@ -75,7 +77,8 @@ function shiftOf(view, trak, timescale, movieTimescale) {
   if (!elst) return 0;
   const wide = fullBox(view, elst).version === 1, size = wide ? 20 : 12;
   let shift = 0, at = elst.begin + 8;
-  for (let left = view.getUint32(elst.begin + 4); left > 0 && at + size <= elst.end; --left, at += size) {
+  for (let left = view.getUint32(elst.begin + 4); left > 0 && at + size <= elst.end;
+      --left, at += size) {
     const duration = wide ? Number(view.getBigUint64(at)) : view.getUint32(at);
     const start = wide ? Number(view.getBigInt64(at + 8)) : view.getInt32(at + 4);
     if (start >= 0) return shift - start / timescale;
@@ -84,7 +87,8 @@ function shiftOf(view, trak, timescale, movieTimescale) {
   return shift;
 }
 
-const ofVersion = (view, box, early, late) => box.begin + (fullBox(view, box).version === 1 ? late : early);
+const ofVersion = (view, box, early, late) => box.begin +
+    (fullBox(view, box).version === 1 ? late : early);
 
 // Runs of a table: {count, value} pairs of 32 bits.
 function* runs(view, box) {
@@ -96,7 +100,8 @@ function* runs(view, box) {
 
 function sizesOf(view, stsz, most) {
   const same = view.getUint32(stsz.begin + 4), count = view.getUint32(stsz.begin + 8);
-  if (count > (same ? kMostAlike : kMostSamples) || (same ? same * count > most : stsz.begin + 12 + 4 * count > stsz.end)) {
+  if (count > (same ? kMostAlike : kMostSamples) || (same ? same * count > most : stsz.begin + 12 +
+      4 * count > stsz.end)) {
     throw broken('too many samples');
   }
   return Array.from({length: count}, (_, i) => same || view.getUint32(stsz.begin + 12 + 4 * i));
@@ -104,7 +109,8 @@ function sizesOf(view, stsz, most) {
 
 // Where each sample lies: chunks hold runs of them.
 function offsetsOf(view, stbl, sizes) {
-  const stco = find(view, stbl, 'stco'), box = stco ?? find(view, stbl, 'co64'), stsc = find(view, stbl, 'stsc');
+  const stco = find(view, stbl, 'stco'), box = stco ?? find(view, stbl, 'co64'),
+      stsc = find(view, stbl, 'stsc');
   if (!box || !stsc) throw broken('a track has no chunks');
   const width = stco ? 4 : 8, room = Math.floor((box.end - box.begin - 8) / width);
   const chunks = Math.min(view.getUint32(box.begin + 4), room);
@@ -127,24 +133,30 @@ function offsetsOf(view, stbl, sizes) {
 }
 
 function samplesOf(view, stbl, track, most) {
-  const stsz = find(view, stbl, 'stsz'), stts = find(view, stbl, 'stts'), stss = find(view, stbl, 'stss');
+  const stsz = find(view, stbl, 'stsz'), stts = find(view, stbl, 'stts'),
+      stss = find(view, stbl, 'stss');
   if (!stsz || !stts) return [];
   const sizes = sizesOf(view, stsz, most), offsets = offsetsOf(view, stbl, sizes);
   const intra = new Set();
-  for (let at = stss ? stss.begin + 8 : 0; stss && at + 4 <= stss.end; at += 4) intra.add(view.getUint32(at) - 1);
+  for (let at = stss ? stss.begin + 8 : 0; stss && at + 4 <= stss.end;
+      at += 4) intra.add(view.getUint32(at) - 1);
   const samples = [];
   let time = 0;
   for (const [count, duration] of runs(view, stts)) {
     for (let i = 0; i < count && samples.length < sizes.length; ++i, time += duration) {
       const at = samples.length;
       samples.push({offset: offsets[at], size: sizes[at], intra: !stss || intra.has(at),
-                    time: time / track.timescale + track.shift, duration: duration / track.timescale});
+                    time: time / track.timescale + track.shift,
+                        duration: duration / track.timescale});
     }
   }
   return samples;
 }
 
-/** The face of a movie: {id, config, timescale, shift, defaults, samples, duration}; null if there is none. */
+/**
+ * The face of a movie: {id, config, timescale, shift, defaults, samples, duration}; null if there
+ * is none.
+ */
 export function readMovie(view, moov, most) {
   const mvhd = find(view, moov, 'mvhd');
   const movieTimescale = mvhd ? view.getUint32(ofVersion(view, mvhd, 12, 20)) || 1 : 1;
@@ -156,7 +168,8 @@ export function readMovie(view, moov, most) {
     if (!tkhd || !mdhd) throw broken('a track has no header');
     const timescale = view.getUint32(ofVersion(view, mdhd, 12, 20)) || 1;
     const track = {id: view.getUint32(ofVersion(view, tkhd, 12, 20)), config, timescale,
-                   shift: shiftOf(view, trak, timescale, movieTimescale), defaults: {duration: 0, size: 0, flags: 0}};
+                   shift: shiftOf(view, trak, timescale, movieTimescale),
+                       defaults: {duration: 0, size: 0, flags: 0}};
     for (const box of boxesIn(view, moov.begin, moov.end)) {
       if (box.type === 'mvex') track.defaults = defaultsOf(view, box, track.id) ?? track.defaults;
     }
@@ -168,7 +181,8 @@ export function readMovie(view, moov, most) {
 
 function defaultsOf(view, mvex, id) {
   for (const trex of boxesIn(view, mvex.begin, mvex.end)) {
-    if (trex.type !== 'trex' || trex.end - trex.begin < 24 || view.getUint32(trex.begin + 4) !== id) continue;
+    if (trex.type !== 'trex' || trex.end - trex.begin < 24 || view.getUint32(trex.begin + 4) !== id)
+        continue;
     return {duration: view.getUint32(trex.begin + 12), size: view.getUint32(trex.begin + 16),
             flags: view.getUint32(trex.begin + 20)};
   }

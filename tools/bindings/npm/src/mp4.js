@@ -1,4 +1,5 @@
-// The face of an mp4 while it arrives: whole files, fragments, segments behind their initialisation.
+// The face of an mp4 while it arrives: whole files, fragments, segments behind their
+// initialisation.
 import {boxAt} from './boxes.js';
 import {readFragment} from './fragment.js';
 import {AnimemeError} from './library.js';
@@ -22,14 +23,16 @@ export class Mp4Reader {
   }
 
   push(bytes) {
-    if (!(bytes instanceof Uint8Array)) throw new AnimemeError('invalid_argument', 'bytes of an mp4 are a Uint8Array');
+    if (!(bytes instanceof Uint8Array)) throw new AnimemeError('invalid_argument',
+        'bytes of an mp4 are a Uint8Array');
     this.bytes = join(this.bytes, bytes);
     while (this.readBox()) { /* all that are there */ }
     const units = [];
     let taken = 0;
     for (; taken < this.pending.length; ++taken) {
       const {offset, size, ...unit} = this.pending[taken];
-      if (offset < this.base) throw new AnimemeError('syntax', 'this mp4 is broken: samples come before their table');
+      if (offset < this.base)
+          throw new AnimemeError('syntax', 'this mp4 is broken: samples come before their table');
       if (offset + size > this.base + this.bytes.length) break;
       units.push({...unit, bytes: this.bytes.slice(offset - this.base, offset - this.base + size)});
     }
@@ -41,7 +44,8 @@ export class Mp4Reader {
   /** No more bytes will come. */
   finish() {
     if (!this.track) throw new AnimemeError('unsupported', 'this is not an mp4 with a face');
-    if (this.pending.length) throw new AnimemeError('truncated', 'this mp4 ends before its samples');
+    if (this.pending.length)
+        throw new AnimemeError('truncated', 'this mp4 ends before its samples');
   }
 
   readBox() {
@@ -49,14 +53,16 @@ export class Mp4Reader {
     const begin = this.at - this.base;
     const box = begin <= view.byteLength ? boxAt(view, begin) : null;
     if (!box) return false;
-    if (this.at === 0 && !kFirst.includes(box.type)) throw new AnimemeError('syntax', 'this is not an mp4');
+    if (this.at === 0 && !kFirst.includes(box.type))
+        throw new AnimemeError('syntax', 'this is not an mp4');
     if (box.type === 'moov' || box.type === 'moof') {
       if (box.end > view.byteLength) return false;
       try {
         if (box.type === 'moov') this.readContents(view, box);
         else if (this.track) this.readFragment(view, box);
       } catch (problem) {
-        if (!(problem instanceof RangeError)) throw problem;  // a box that is shorter than what it says
+        // a box that is shorter than what it says
+        if (!(problem instanceof RangeError)) throw problem;
         throw new AnimemeError('syntax', `this mp4 is broken: a box in ${box.type} is too short`);
       }
     }

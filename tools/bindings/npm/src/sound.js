@@ -48,7 +48,8 @@ export class SoundBuffer {
         this.buffer.removeEventListener('error', failed);
         done();
       };
-      const failed = () => fail(new AnimemeError('syntax', 'the browser cannot read a segment of the sound'));
+      const failed = () => fail(new AnimemeError('syntax',
+          'the browser cannot read a segment of the sound'));
       this.buffer.addEventListener('updateend', end, {once: true});
       this.buffer.addEventListener('error', failed, {once: true});
       begin();
@@ -61,10 +62,13 @@ export class SoundBuffer {
 
   end() { if (this.source.readyState === 'open') this.source.endOfStream(); }
 
-  /** Seconds at which the newest sound ends, and where its range begins; undefined: there is none. */
+  /**
+   * Seconds at which the newest sound ends, and where its range begins; undefined: there is none.
+   */
   get range() {
     const ranges = this.buffer?.buffered;
-    return ranges?.length ? {begin: ranges.start(ranges.length - 1), end: ranges.end(ranges.length - 1)} : undefined;
+    return ranges?.length ? {begin: ranges.start(ranges.length - 1),
+        end: ranges.end(ranges.length - 1)} : undefined;
   }
 
   close() { URL.revokeObjectURL(this.url); }

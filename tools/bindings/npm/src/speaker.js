@@ -7,11 +7,12 @@ import {readFrame, SPEAK_OPTIONS_SIZE, writeSpeakOptions} from './structs.js';
 const NEED_DATA = 1;
 const builtin = new URL('../model/grid_s1.dam', import.meta.url);
 
-// The model of the package opens the mouth as far as text with it needs, as the program's built-in model does, which is
-// the same file. Models of others have a number of their own.
+// The model of the package opens the mouth as far as text with it needs, as the program's built-in
+// model does, which is the same file. Models of others have a number of their own.
 const BUILTIN_ARTICULATION = 1;
 
-const withOptions = (module, options, use) => module.with(new Uint8Array(SPEAK_OPTIONS_SIZE), (at) => {
+const withOptions = (module, options, use) => module.with(new Uint8Array(SPEAK_OPTIONS_SIZE),
+    (at) => {
   module.functions.animeme_speak_options_init(at, SPEAK_OPTIONS_SIZE);
   writeSpeakOptions(module.memory, at, options);
   return use(at);
@@ -26,9 +27,11 @@ export class Speaker extends Handle {
     const module = await need('speaker', source);
     const isBytes = model instanceof ArrayBuffer || ArrayBuffer.isView(model);
     const given = isBytes ? model : await bytesOf(model);
-    const bytes = ArrayBuffer.isView(given) ? new Uint8Array(given.buffer, given.byteOffset, given.byteLength)
+    const bytes = ArrayBuffer.isView(given) ? new Uint8Array(given.buffer, given.byteOffset,
+        given.byteLength)
                                             : new Uint8Array(given);
-    return new Speaker(module, module.with(bytes, (at, size) => module.make('model_read', at, size)),
+    return new Speaker(module,
+        module.with(bytes, (at, size) => module.make('model_read', at, size)),
                        model === builtin ? BUILTIN_ARTICULATION : undefined);
   }
 
@@ -38,13 +41,19 @@ export class Speaker extends Handle {
   }
 
   /** Who has to be named when the model is passed on. */
-  get attribution() { return this.library.text(this.library.functions.animeme_model_attribution(this.handle)); }
+  get attribution(
+      ) { return this.library.text(this.library.functions.animeme_model_attribution(this.handle)); }
 
-  /** Frames for phones [{phone, start, end}] in seconds, or for a script as text (TextGrid, TSV, labels ...). */
+  /**
+   * Frames for phones [{phone, start, end}] in seconds, or for a script as text (TextGrid, TSV,
+   * labels ...).
+   */
   speak(phones, options = {}) {
     const module = this.library;
-    const script = typeof phones === 'string' ? phones : 'start_s\tend_s\tphone\n' + phones.map(line).join('');
-    const clip = module.with(script, (text, size) => withOptions(module, this.completed(options), (given) =>
+    const script = typeof phones === 'string' ? phones : 'start_s\tend_s\tphone\n' +
+        phones.map(line).join('');
+    const clip = module.with(script, (text, size) => withOptions(module, this.completed(options),
+        (given) =>
       module.make('speak', this.handle, text, size - 1, given)));
     try {
       const rate = rateOf(options);
@@ -63,11 +72,13 @@ export class Speaker extends Handle {
   begin(options = {}) {
     const module = this.library;
     return new Speech(module, withOptions(module, this.completed(options),
-                                          (given) => module.make('speech_new', this.handle, given)));
+                                          (given) => module.make('speech_new', this.handle,
+                                              given)));
   }
 
   /** The options with what the model asks for where they say nothing. */
-  completed(options) { return {...options, articulation: options.articulation ?? this.articulation}; }
+  completed(options) { return {...options, articulation: options.articulation ?? this.articulation};
+      }
 }
 
 /** What Speaker.begin() gives. */

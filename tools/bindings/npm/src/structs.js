@@ -1,4 +1,5 @@
-// The structs of animeme.h in the memory of a module. tools/bindings/npm/weights.cpp holds the compiler to these places.
+// The structs of animeme.h in the memory of a module. tools/bindings/npm/weights.cpp holds the
+// compiler to these places.
 
 export const FAPS = 68;
 export const BAPS = 296;
@@ -43,7 +44,10 @@ export function readBody(memory, frame, at) {
   };
 }
 
-/** The way back. What is missing is as in an empty frame; values count where the mask is set, or all without one. */
+/**
+ * The way back. What is missing is as in an empty frame; values count where the mask is set, or all
+ * without one.
+ */
 export function writeFrame(memory, at, frame) {
   const view = new DataView(memory, at, FRAME_SIZE);
   new Uint8Array(memory, at, FRAME_SIZE).fill(0);
@@ -58,17 +62,21 @@ export function writeFrame(memory, at, frame) {
   if (frame.mask) present.set(frame.mask);
   else present.fill(1, 2);
   if (frame.viseme) new Int32Array(memory, at + VISEME, 4).set(viseme4(frame.viseme));
-  if (frame.expression) new Int32Array(memory, at + EXPRESSION, 6).set(expression6(frame.expression));
+  if (frame.expression) new Int32Array(memory, at + EXPRESSION,
+      6).set(expression6(frame.expression));
   if (frame.rules) new Uint8Array(memory, at + RULES, 10).set(frame.rules);
 }
 
-const viseme4 = ({select1 = 0, select2 = 0, blend = 0, def = false}) => [select1, select2, blend, def ? 1 : 0];
-const expression6 = ({select1 = 0, intensity1 = 0, select2 = 0, intensity2 = 0, initFace = false, def = false}) =>
+const viseme4 = ({select1 = 0, select2 = 0, blend = 0, def = false}) => [select1, select2, blend,
+    def ? 1 : 0];
+const expression6 = ({select1 = 0, intensity1 = 0, select2 = 0, intensity2 = 0, initFace = false,
+    def = false}) =>
   [select1, intensity1, select2, intensity2, initFace ? 1 : 0, def ? 1 : 0];
 
 /** An animeme_speak_options that `_init` has filled. */
 export function writeSpeakOptions(memory, at, options) {
-  const {rate, style, sharpness, articulation, tail, idleMotion, seed, lookAhead, mood, look, still, tongue} = options;
+  const {rate, style, sharpness, articulation, tail, idleMotion, seed, lookAhead, mood, look, still,
+      tongue} = options;
   const view = new DataView(memory, at, SPEAK_OPTIONS_SIZE);
   if (rate !== undefined) {
     const [num, den] = Array.isArray(rate) ? rate : rateOf(rate);

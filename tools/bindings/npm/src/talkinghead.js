@@ -20,13 +20,17 @@ export function visemeEvents(frames) {
   const merged = [];
   for (const event of events) {
     const last = merged.at(-1);
-    if (last && (last.viseme === event.viseme || event.end - event.time < kShortest - 1e-6)) last.end = event.end;
+    if (last &&
+        (last.viseme === event.viseme || event.end - event.time < kShortest - 1e-6)) last.end =
+        event.end;
     else merged.push(event);
   }
-  return merged.map(({viseme, time, end}) => ({viseme: visemeNames()[viseme], time, duration: end - time}));
+  return merged.map(({viseme, time, end}) => ({viseme: visemeNames()[viseme], time,
+      duration: end - time}));
 }
 
-// An animation of TalkingHead: times of each step, and for each shape a value to begin with and one a step.
+// An animation of TalkingHead: times of each step, and for each shape a value to begin with and one
+// a step.
 function blendshapes(frames) {
   const fitter = new ArkitFitter(), names = arkitNames().slice(0, ARKIT_SHAPES);
   const rows = frames.map((frame) => Array.from(fitter.fit(frame).subarray(0, ARKIT_SHAPES)));
@@ -38,10 +42,11 @@ function blendshapes(frames) {
 }
 
 /**
- * Frames of a face (shown) beside `audio`, an AudioBuffer or pieces of PCM: {audio, words, wtimes, wdurations, visemes,
- * vtimes, vdurations}, times in milliseconds; with {shapes: true} ARKit's shapes frame by frame: `anim` for
- * speakAudio(), `anims` for streamAudio() (of a stream with {lipsyncType: 'blendshapes'}). Visemes are empty then, or
- * its player would make others from the words. It closes the mouth by itself, so silence is left out.
+ * Frames of a face (shown) beside `audio`, an AudioBuffer or pieces of PCM: {audio, words, wtimes,
+ * wdurations, visemes, vtimes, vdurations}, times in milliseconds; with {shapes: true} ARKit's
+ * shapes frame by frame: `anim` for speakAudio(), `anims` for streamAudio() (of a stream with
+ * {lipsyncType: 'blendshapes'}). Visemes are empty then, or its player would make others from the
+ * words. It closes the mouth by itself, so silence is left out.
  */
 export function talkingHead(frames, audio, {shapes = false, words = []} = {}) {
   const out = {
@@ -60,6 +65,7 @@ export function talkingHead(frames, audio, {shapes = false, words = []} = {}) {
     ...out,
     visemes: events.map(({viseme}) => viseme.replace('viseme_', '')),
     vtimes: events.map(({time}) => milliseconds(time)),
-    vdurations: events.map(({time, duration}) => milliseconds(time + duration) - milliseconds(time)),
+    vdurations: events.map(({time, duration}) => milliseconds(time +
+        duration) - milliseconds(time)),
   };
 }

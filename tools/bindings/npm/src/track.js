@@ -3,7 +3,8 @@ import {Decoder, Receiver} from './decoder.js';
 import {Mp4Reader} from './mp4.js';
 
 const OBJECT_START = Uint8Array.of(0, 0, 1, 0xBA, 0x7F), PLANE_START = Uint8Array.of(0, 0, 1, 0xBB);
-const startsWith = (bytes, code) => bytes.length >= 4 && code.subarray(0, 4).every((byte, i) => bytes[i] === byte);
+const startsWith = (bytes, code) => bytes.length >= 4 &&
+    code.subarray(0, 4).every((byte, i) => bytes[i] === byte);
 
 /** Decodes planes as containers carry them. After a gap it begins again at the next intra plane. */
 export class UnitDecoder {
@@ -14,13 +15,18 @@ export class UnitDecoder {
     this.begun = false;
   }
 
-  /** The frames of a unit, as a rule one, at the unit's time; none while it waits for an intra plane. */
+  /**
+   * The frames of a unit, as a rule one, at the unit's time; none while it waits for an intra
+   * plane.
+   */
   decode(unit) {
     try {
       if (!this.push(unit)) return [];
       const frames = [];
-      for (const frame of this.decoder) frames.push(this.receiver ? this.receiver.show(frame) : frame);
-      return frames.map((frame, i) => ({...frame, time: unit.time + i * frame.rate[1] / frame.rate[0]}));
+      for (const frame of this.decoder) frames.push(this.receiver ? this.receiver.show(frame) :
+          frame);
+      return frames.map((frame,
+          i) => ({...frame, time: unit.time + i * frame.rate[1] / frame.rate[0]}));
     } catch (failure) {
       if (failure.name !== 'AnimemeError') throw failure;
       this.begun = false;
@@ -28,8 +34,8 @@ export class UnitDecoder {
     }
   }
 
-  // A plane is complete when the next one begins: it is given the start code of that at once, which is then taken off
-  // when it comes.
+  // A plane is complete when the next one begins: it is given the start code of that at once, which
+  // is then taken off when it comes.
   push({bytes, intra}) {
     const follows = startsWith(bytes, PLANE_START);
     if (this.begun && follows) {
@@ -66,7 +72,8 @@ export class Track {
   add(frames) {
     if (!frames.length) return;
     const last = frames.at(-1), behind = this.frames.splice(this.indexAt(frames[0].time) + 1);
-    for (const frame of frames) this.frames.push(frame);  // an hour of them is too long a list of arguments
+    // an hour of them is too long a list of arguments
+    for (const frame of frames) this.frames.push(frame);
     for (const frame of behind) this.frames.push(frame);
     this.end = Math.max(this.end, last.time + last.rate[1] / last.rate[0]);
   }

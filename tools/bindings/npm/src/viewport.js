@@ -1,5 +1,6 @@
 // A canvas with a head in it.
-import {DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, Vector3, WebGLRenderer} from 'three';
+import {DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, Vector3,
+    WebGLRenderer} from 'three';
 import {MeshoptDecoder} from 'three/addons/libs/meshopt_decoder.module.js';
 import {GLTFLoader} from 'three/addons/loaders/GLTFLoader.js';
 
@@ -29,7 +30,8 @@ export class Viewport {
 
   frame(box) {
     const size = box.getSize(new Vector3()), middle = box.getCenter(new Vector3());
-    const distance = 0.58 * Math.max(size.x, size.y) / Math.tan(this.camera.fov * Math.PI / 360) + size.z / 2;
+    const distance = 0.58 * Math.max(size.x, size.y) / Math.tan(this.camera.fov * Math.PI / 360) +
+        size.z / 2;
     this.camera.position.set(middle.x, middle.y, middle.z + distance);
     this.camera.near = distance / 100;
     this.camera.far = distance * 100;
@@ -54,7 +56,8 @@ export class Viewport {
     const {clientWidth: width, clientHeight: height} = this.canvas;
     if (!width || !height) return;
     const ratio = Math.min(globalThis.devicePixelRatio ?? 1, 2);
-    if (this.canvas.width !== Math.floor(width * ratio) || this.canvas.height !== Math.floor(height * ratio)) {
+    if (this.canvas.width !== Math.floor(width * ratio) ||
+        this.canvas.height !== Math.floor(height * ratio)) {
       this.renderer.setPixelRatio(ratio);
       this.renderer.setSize(width, height, false);
       this.camera.aspect = width / height;

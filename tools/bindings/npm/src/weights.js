@@ -54,7 +54,10 @@ class Fitter extends Handle {
   }
 }
 
-/** Weights of ARKit's shapes (0..1) and angles (radians) of the frames of one face, which should be complete. */
+/**
+ * Weights of ARKit's shapes (0..1) and angles (radians) of the frames of one face, which should be
+ * complete.
+ */
 export class ArkitFitter extends Fitter {
   constructor() { super('arkit', CHANNELS); }
 }

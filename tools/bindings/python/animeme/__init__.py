@@ -14,13 +14,15 @@ Failures are animeme.Error, with code and position. Long calls let other threads
 from ._types import Error, InputWarning, Phone, Position
 from ._animeme import (
     ARKIT_NAMES, FAP_NAMES, VISEME_NAMES, Clip, Corpus, Decoder, Encoder, Evaluation, Head, Model,
-    Plane, Sentence, Speech, SpeechStream, VoiceStream, __version__, builtin_model, decode, encode, evaluate,
+    Plane, Sentence, Speech, SpeechStream, VoiceStream, __version__, builtin_model, decode, encode,
+    evaluate,
     load, load_model, read, read_script, train, write_script)
 
 __all__ = [
     "ARKIT_NAMES", "FAP_NAMES", "VISEME_NAMES", "Clip", "Corpus", "Decoder", "Encoder", "Error",
     "Evaluation", "Head", "InputWarning", "Model", "Phone", "Plane", "Position", "Sentence",
-    "Speech", "SpeechStream", "VoiceStream", "__version__", "builtin_model", "decode", "encode", "evaluate",
+    "Speech", "SpeechStream", "VoiceStream", "__version__", "builtin_model", "decode", "encode",
+    "evaluate",
     "load", "load_model", "read", "read_script", "train", "write_script"]
 
 # So that tracebacks name them as programs do.

@@ -9,20 +9,26 @@ window.alert = (text) => { problem = text; };
 async function load(url) {
   await new Promise((resolve, reject) => {
     const script = document.createElement('script');
-    Object.assign(script, {src: url, onload: resolve, onerror: () => reject(new Error('cannot load ' + url))});
+    Object.assign(script,
+        {src: url, onload: resolve, onerror: () => reject(new Error('cannot load ' + url))});
     document.head.append(script);
   });
 }
 
-/** A function that finds {points} of a picture (ImageData), shares of its width and height, or {points: null}. */
+/**
+ * A function that finds {points} of a picture (ImageData), shares of its width and height, or
+ * {points: null}.
+ */
 export async function open(settings) {
   await load('/package/face_mesh.js');
   const mesh = new window.FaceMesh({locateFile: (file) => '/package/' + file});
   mesh.setOptions({
     maxNumFaces: 1,
     refineLandmarks: true,
-    minTrackingConfidence: settings.confidence,  // minDetectionConfidence ends this version of the package
-    useCpuInference: true,  // of other names than those of index.d.ts: WebGL by the processor is slow
+    // minDetectionConfidence ends this version of the package
+    minTrackingConfidence: settings.confidence,
+    // of other names than those of index.d.ts: WebGL by the processor is slow
+    useCpuInference: true,
   });
   let found = null;
   mesh.onResults((results) => {
@@ -33,7 +39,8 @@ export async function open(settings) {
   return async (picture) => {
     Object.assign(canvas, {width: picture.width, height: picture.height});
     canvas.getContext('2d', {willReadFrequently: true}).putImageData(picture, 0, 0);
-    // A face is cut out where the last look found it. A new one is looked at until that is where it is.
+    // A face is cut out where the last look found it. A new one is looked at until that is where it
+    // is.
     for (let looks = found ? 1 : kLooks; looks > 0; --looks) {
       found = null;
       await mesh.send({image: canvas});

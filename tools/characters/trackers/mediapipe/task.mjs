@@ -1,4 +1,5 @@
-// The Face Landmarker of npm's @mediapipe/tasks-vision with a model of the user: 478 points, 52 shapes.
+// The Face Landmarker of npm's @mediapipe/tasks-vision with a model of the user: 478 points, 52
+// shapes.
 import {FaceLandmarker, FilesetResolver} from '/package/vision_bundle.mjs';
 
 /** A function that finds {points, shapes} of a picture (ImageData), points as those of mesh.mjs. */
@@ -12,13 +13,15 @@ export async function open(settings) {
     outputFaceBlendshapes: settings.shapes,
   });
   const landmarker = await making.catch((error) => {
-    throw new Error('the model is no face_landmarker.task, or of another version: ' + error.message.split('\n')[0]);
+    throw new Error('the model is no face_landmarker.task, or of another version: ' +
+        error.message.split('\n')[0]);
   });
   return async (picture) => {
     const found = landmarker.detect(picture);
     return {
       points: found.faceLandmarks[0] ?? null,
-      shapes: found.faceBlendshapes?.[0]?.categories.filter((shape) => shape.categoryName !== '_neutral'),
+      shapes: found.faceBlendshapes?.[0]?.categories.filter((shape) =>
+          shape.categoryName !== '_neutral'),
     };
   };
 }

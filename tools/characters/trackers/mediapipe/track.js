@@ -1,5 +1,6 @@
 #!/usr/bin/env node
-// 478 points of a face in a video, or 52 shapes, as a table: MediaPipe in a headless Chromium looks.
+// 478 points of a face in a video, or 52 shapes, as a table: MediaPipe in a headless Chromium
+// looks.
 'use strict';
 
 const fs = require('node:fs');
@@ -8,7 +9,8 @@ const {openPage} = require('./page.js');
 const {Table} = require('./table.js');
 const {openVideo} = require('./video.js');
 
-const kLongest = 960;  // pixels of a picture: a face that is a quarter as wide has all that the model sees of it
+// pixels of a picture: a face that is a quarter as wide has all that the model sees of it
+const kLongest = 960;
 const kUsage = 'usage: track.js [--model face_landmarker.task [--shapes]] [--confidence 0.5]\n' +
     '                [--chromium PATH] VIDEO TABLE.csv';
 
@@ -31,11 +33,14 @@ function parseArguments(list) {
   }
   if (options.help) return options;
   if (options.files.length !== 2) throw new UsageError('a video and a table are wanted');
-  if (!(options.confidence >= 0 && options.confidence <= 1)) throw new UsageError('--confidence is 0 to 1');
+  if (!(options.confidence >= 0 && options.confidence <= 1))
+      throw new UsageError('--confidence is 0 to 1');
   if (options.shapes && !options.model) {
-    throw new UsageError('--shapes wants --model face_landmarker.task: the one of the npm package finds points alone');
+    throw new UsageError(
+        '--shapes wants --model face_landmarker.task: the one of the npm package finds points alone');
   }
-  if (options.model && !fs.existsSync(options.model)) throw new Error('there is no model ' + options.model);
+  if (options.model && !fs.existsSync(options.model))
+      throw new Error('there is no model ' + options.model);
   return options;
 }
 
@@ -43,7 +48,8 @@ function parseArguments(list) {
 function finderOf(options) {
   const name = options.model ? '@mediapipe/tasks-vision' : '@mediapipe/face_mesh';
   const folder = path.join(__dirname, 'node_modules', name);
-  if (!fs.existsSync(folder)) throw new Error(`npm's ${name} is missing; run: npm install --prefix ${__dirname}`);
+  if (!fs.existsSync(folder))
+      throw new Error(`npm's ${name} is missing; run: npm install --prefix ${__dirname}`);
   return {folder: folder + '/', module: options.model ? '/task.mjs' : '/mesh.mjs'};
 }
 
@@ -58,7 +64,8 @@ function pointsOf({points}, {width, height, scale}) {
 }
 
 function shapesOf({shapes}) {
-  return {columns: shapes.map((shape) => shape.categoryName), values: shapes.map((shape) => shape.score)};
+  return {columns: shapes.map((shape) => shape.categoryName),
+      values: shapes.map((shape) => shape.score)};
 }
 
 async function main() {
@@ -67,13 +74,15 @@ async function main() {
   const [file, out] = options.files;
   const {folder, module} = finderOf(options);
   const video = openVideo(file, kLongest);
-  const table = new Table(out, {program: 'track.js', count: video.count, digits: options.shapes ? 6 : 3});
+  const table = new Table(out, {program: 'track.js', count: video.count,
+      digits: options.shapes ? 6 : 3});
   const valuesOf = options.shapes ? shapesOf : pointsOf;
   const pictures = video.pictures();
   const waiting = [];  // pictures that the page has
   await openPage({
     chromium: options.chromium,
-    scratch: out + '.chromium-',  // goes with the folder of the table, if somebody has made one for it
+    // goes with the folder of the table, if somebody has made one for it
+    scratch: out + '.chromium-',
     folders: {'/package/': folder, '/': __dirname + '/'},
     files: options.model ? {'/model': options.model} : {},
     settings: {module, shapes: options.shapes, confidence: options.confidence},

@@ -11,7 +11,8 @@ const readline = require('node:readline');
 
 function probe(file) {
   const entries = 'stream=avg_frame_rate,width,height,sample_aspect_ratio,duration:format=duration';
-  const ffprobe = spawnSync('ffprobe', ['-v', 'error', '-select_streams', 'v:0', '-show_entries', entries,
+  const ffprobe = spawnSync('ffprobe', ['-v', 'error', '-select_streams', 'v:0', '-show_entries',
+      entries,
     '-of', 'json', file]);
   if (ffprobe.error) throw new Error('ffprobe cannot be started; install ffmpeg');
   if (ffprobe.status !== 0) throw new Error(ffprobe.stderr.toString().trim());
@@ -60,20 +61,26 @@ class Bytes {
   }
 }
 
-/** A video whose pictures come as they are shown: upright and with square pixels. Those wider or higher than
-    `longest` are made smaller; pixels of a picture times its `scale` are pixels of the video. `times`: of the pictures
+/**
+ * A video whose pictures come as they are shown: upright and with square pixels. Those wider or
+ * higher than
+    `longest` are made smaller;
+        pixels of a picture times its `scale` are pixels of the video. `times`: of the pictures
     that came, in seconds; complete at the end. */
 function openVideo(file, longest) {
   const stream = probe(file);
   const [wide, high] = String(stream.sample_aspect_ratio).split(':').map(Number);
   const aspect = wide > 0 && high > 0 ? wide / high : 1;
   const scale = Math.max(1, Math.max(stream.width * aspect, stream.height) / longest);
-  // The times are told by showinfo; behind it all pictures are evenly apart, so that none is doubled or dropped.
+  // The times are told by showinfo; behind it all pictures are evenly apart, so that none is
+  // doubled or dropped.
   const filter = `showinfo,settb=1/25,setpts=N,scale=iw*sar/${scale}:ih/${scale},setsar=1`;
   const times = [];
   async function* pictures() {
-    const ffmpeg = spawn('ffmpeg', ['-hide_banner', '-nostats', '-nostdin', '-i', file, '-map', '0:v:0', '-vf', filter,
-      '-r', '25', '-f', 'image2pipe', '-c:v', 'pam', '-pix_fmt', 'rgba', '-'], {stdio: ['ignore', 'pipe', 'pipe']});
+    const ffmpeg = spawn('ffmpeg', ['-hide_banner', '-nostats', '-nostdin', '-i', file, '-map',
+        '0:v:0', '-vf', filter,
+      '-r', '25', '-f', 'image2pipe', '-c:v', 'pam', '-pix_fmt', 'rgba', '-'],
+          {stdio: ['ignore', 'pipe', 'pipe']});
     const said = [];
     const heard = (async () => {
       for await (const line of readline.createInterface({input: ffmpeg.stderr})) {
@@ -87,7 +94,8 @@ function openVideo(file, longest) {
     for (;;) {
       const header = (await bytes.takeTo('ENDHDR\n', 1024)).toString();
       if (header === '') break;
-      const [width, height] = ['WIDTH', 'HEIGHT'].map((name) => Number(new RegExp(name + ' (\\d+)').exec(header)[1]));
+      const [width, height] = ['WIDTH', 'HEIGHT'].map((name) =>
+          Number(new RegExp(name + ' (\\d+)').exec(header)[1]));
       const pixels = await bytes.take(width * height * 4);
       if (pixels.length < width * height * 4) break;
       yield {width, height, pixels, scale};

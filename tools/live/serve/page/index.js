@@ -45,7 +45,8 @@ function row(head) {
   const open = document.createElement('button');
   open.textContent = head.name;
   open.addEventListener('click', () => show(head.name));
-  const cells = [open, head.viewers, head.lines_waiting, head.asleep ? 'asleep' : `${head.late_99_ms} ms`];
+  const cells = [open, head.viewers, head.lines_waiting,
+      head.asleep ? 'asleep' : `${head.late_99_ms} ms`];
   for (const content of cells) {
     const cell = document.createElement('td');
     cell.append(content);

@@ -118,7 +118,8 @@
     write('buffered', running && session.info.audio ? session.buffered() : NaN, 2);
     write('offset', shown ? animeme.offset * 1000 : NaN, 0);
     write('rate', running ? counted.length / 2 : NaN, 1);
-    write('bits', running ? counted.reduce((sum, frame) => sum + frame.bytes, 0) * 8 / 2000 : NaN, 1);
+    write('bits', running ? counted.reduce((sum, frame) => sum + frame.bytes, 0) * 8 / 2000 : NaN,
+        1);
     element('gaps').textContent = session.gaps;
     const open = Math.round(100 * Math.min(1, Face.opening(values)));
     element('mouth').setAttribute('aria-valuenow', open);

@@ -40,8 +40,10 @@ const Face = (() => {
     const bottom = at.y + fall - (lip.bottom + lip.bottomSides) / 2;
     draw.beginPath();
     draw.moveTo(right, rightY);
-    draw.bezierCurveTo(right + width * 0.5, 2 * top - at.y, left - width * 0.5, 2 * top - at.y, left, leftY);
-    draw.bezierCurveTo(left - width * 0.5, 2 * bottom - at.y, right + width * 0.5, 2 * bottom - at.y, right, rightY);
+    draw.bezierCurveTo(right + width * 0.5, 2 * top - at.y, left - width * 0.5, 2 * top - at.y,
+        left, leftY);
+    draw.bezierCurveTo(left - width * 0.5, 2 * bottom - at.y, right + width * 0.5,
+        2 * bottom - at.y, right, rightY);
     draw.closePath();
   }
 

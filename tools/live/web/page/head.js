@@ -1,6 +1,6 @@
 
-// A head in three dimensions in place of the schematic face. HeadView and readModel stand in front of
-// this, in the same script.
+// A head in three dimensions in place of the schematic face. HeadView and readModel stand in front
+// of this, in the same script.
 // Planes as a motion without steps: turns are eased, and between two planes lies their mixture.
 class LiveMotion {
   #turns = new TurnSmoother();
@@ -11,7 +11,8 @@ class LiveMotion {
     let first = frames.length;
     while (first > 0 && !frames[first - 1].eased) --first;
     for (const frame of frames.slice(first)) {
-      if (!(frame.time > this.#newest && frame.time < this.#newest + 1)) this.#turns = new TurnSmoother();
+      if (!(frame.time > this.#newest && frame.time < this.#newest + 1)) this.#turns =
+          new TurnSmoother();
       this.#newest = frame.time;
       frame.eased = this.#turns.next(frame.values);
     }

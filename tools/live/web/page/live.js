@@ -81,7 +81,8 @@ const Live = (() => {
       this.running = true;
       this.events.state('lost', 'connection lost, trying again');
       const wait = kRetry[Math.min(this.attempt++, kRetry.length - 1)];
-      this.retry = setTimeout(() => this.start(), wait * (0.75 + Math.random() / 2));  // not all at once
+      // not all at once
+      this.retry = setTimeout(() => this.start(), wait * (0.75 + Math.random() / 2));
     }
 
     end() {
@@ -185,8 +186,8 @@ const Live = (() => {
       return Math.max((this.heard && this.soundEnd()) || 0, face) - this.clock();
     }
 
-    // The player has nothing more to play. Once is a stall, which is over when it goes on; again and
-    // again is a network that wants more to be kept.
+    // The player has nothing more to play. Once is a stall, which is over when it goes on; again
+    // and again is a network that wants more to be kept.
     ranDry() {
       const now = wall();
       if (!this.running || this.ended || this.audio.seeking) return;
@@ -212,7 +213,8 @@ const Live = (() => {
         this.events.state('waiting', 'waiting for the face');
         return;
       }
-      if (off > kJump || (off < -this.target - kLate && since < 2 * kStep / 1000)) this.begun += off;
+      if (off > kJump || (off < -this.target - kLate &&
+          since < 2 * kStep / 1000)) this.begun += off;
       else if (off > 0.15) this.begun += 0.1 * kStep / 1000;
       else if (off < -0.15) this.begun -= 0.04 * kStep / 1000;
       this.live();
@@ -221,7 +223,8 @@ const Live = (() => {
     steerSound() {
       const {audio, target} = this, newest = this.newest();
       if (!newest) return;
-      const off = newest.end - target - audio.currentTime, enough = newest.end - target >= newest.begin;
+      const off = newest.end - target - audio.currentTime,
+          enough = newest.end - target >= newest.begin;
       if (audio.paused) {
         if (enough) this.play(newest.end - target);
         return;
@@ -232,7 +235,8 @@ const Live = (() => {
         this.jump(newest.end - target);
       } else {
         this.hurries = off > (this.hurries ? 0.03 : 0.15);
-        const rate = this.hurries ? 1 + Math.min(0.2, Math.max(0.05, off / 2)) : off < -0.2 ? 0.96 : 1;
+        const rate = this.hurries ? 1 + Math.min(0.2, Math.max(0.05, off / 2)) : off < -0.2 ? 0.96 :
+            1;
         if (audio.playbackRate !== rate) audio.playbackRate = rate;
       }
       if (audio.readyState < 3) this.events.state('waiting', 'waiting for sound');

@@ -2,8 +2,8 @@
 // The connections by WebRTC where the server and the browser have it, else those of live.js. Sound
 // and values come over UDP, without a player's buffer; the RTP time of the sound is its clock.
 const Rtc = (() => {
-  // Milliseconds, after which it goes by WebSockets: without an answer, then without a way through, then
-  // without the channel.
+  // Milliseconds, after which it goes by WebSockets: without an answer, then without a way through,
+  // then without the channel.
   const kAnswer = 5000, kPatience = 2000, kMostPatience = 6000;
   const kWindow = 25;            // packets of sound that tell how its clock goes
   const kPlanes = 50;            // that tell whether the face is there when it is due
@@ -58,15 +58,16 @@ const Rtc = (() => {
       this.offered.catch(() => {});  // connect() sees it, too
     }
 
-    // WHEP. All candidates of the server are in its answer; ours would be names that mean nothing to
-    // it (mDNS), so it is not kept waiting for them: it sees where we come from.
+    // WHEP. All candidates of the server are in its answer; ours would be names that mean nothing
+    // to it (mDNS), so it is not kept waiting for them: it sees where we come from.
     async connect() {
       if (!this.peer) this.prepare();
       const peer = this.peer;
       if (this.info.audio) this.hear();  // while the click counts
       await this.offered;
       const response = await fetch(Live.address('whep'), {
-        method: 'POST', headers: {'Content-Type': 'application/sdp'}, body: peer.localDescription.sdp,
+        method: 'POST', headers: {'Content-Type': 'application/sdp'},
+            body: peer.localDescription.sdp,
         signal: AbortSignal.timeout(kAnswer),
       });
       const sdp = await response.text();
@@ -75,7 +76,8 @@ const Rtc = (() => {
       this.resource = response.headers.get('Location');
       await peer.setRemoteDescription({type: 'answer', sdp});
       if (peer !== this.peer) return;
-      if (this.info.audio) this.hear();  // Chromium at times stays silent where the track was not live
+      // Chromium at times stays silent where the track was not live
+      if (this.info.audio) this.hear();
       await this.opened(peer);
       if (peer === this.peer) this.connected = true;
     }
@@ -101,7 +103,8 @@ const Rtc = (() => {
             this.broken();
           } else if (state === 'disconnected') {  // it may come back, but rarely does
             setTimeout(() => { if (peer.connectionState === state) this.broken(); }, kPatience);
-          } else if (this.channel.readyState === 'open' || (!this.info.face && state === 'connected')) {
+          } else if (this.channel.readyState === 'open' ||
+              (!this.info.face && state === 'connected')) {
             done();
           }
         };
@@ -126,8 +129,8 @@ const Rtc = (() => {
       this.live();
     }
 
-    // Sound is sent a little ahead of the face, and comes on another way: the browser is asked to hold it
-    // back until nearly every plane is there before it is due, by `spare` seconds.
+    // Sound is sent a little ahead of the face, and comes on another way: the browser is asked to
+    // hold it back until nearly every plane is there before it is due, by `spare` seconds.
     hold(spare) {
       this.spares.push(spare);
       if (this.spares.length < kPlanes) return;
@@ -140,7 +143,8 @@ const Rtc = (() => {
 
     ask() {
       this.held = Math.min(Math.max(this.held, 0), kMostHold);
-      if ('jitterBufferTarget' in this.receiver) this.receiver.jitterBufferTarget = 1000 * this.held;
+      if ('jitterBufferTarget' in this.receiver) this.receiver.jitterBufferTarget =
+          1000 * this.held;
       else this.receiver.playoutDelayHint = this.held;
     }
 

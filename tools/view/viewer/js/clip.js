@@ -53,7 +53,8 @@ export class Clip {
     const frame = this.frameAt(time);
     const next = Math.min(frame + 1, this.frames - 1);
     const share = between ? Math.min(Math.max((time - this.timeOf(frame)) * this.rate, 0), 1) : 0;
-    for (const [control, column] of [...Object.entries(this.columns), ...Object.entries(this.derived),
+    for (const [control, column] of [...Object.entries(this.columns),
+        ...Object.entries(this.derived),
                                      ...Object.entries(between ? this.eased : {})]) {
       out[control] = column[frame] + (column[next] - column[frame]) * share;
     }

@@ -15,7 +15,8 @@ const RADIAN = 1e-5;  // of an angle unit
 
 /** A value as people read it: angles in degrees, too. */
 export function valueText(value, unit) {
-  return unit === 'AU' ? `${value} = ${(value * RADIAN * 180 / Math.PI).toFixed(1)}°` : String(value);
+  return unit === 'AU' ? `${value} = ${(value * RADIAN * 180 / Math.PI).toFixed(1)}°` :
+      String(value);
 }
 
 /** `facts`: faps (the table) and phones of the page; `app`: clips, player. */
@@ -44,7 +45,8 @@ export class Curves {
     this.faps = faps;
     for (const fap of faps) {
       const ranges = this.app.clips.map((clip) => clip.range(fap));
-      this.ranges[fap] = [Math.min(...ranges.map((r) => r[0])), Math.max(...ranges.map((r) => r[1]))];
+      this.ranges[fap] = [Math.min(...ranges.map((r) => r[0])),
+          Math.max(...ranges.map((r) => r[1]))];
     }
     this.labels.replaceChildren(...faps.map((fap) => this.label(fap)));
     this.canvas.setAttribute('aria-label', 'Curves of ' +

@@ -49,9 +49,9 @@ export class Renderer {
     gl.enable(gl.CULL_FACE);
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
-    // Triangles seen edge on are as steep as can be: a sample a sixteenth of a pixel beside them has a
-    // depth far before the skin, and the walls of the mouth shine through the cheeks as dark specks.
-    // What is steep goes back by what it rises within a pixel.
+    // Triangles seen edge on are as steep as can be: a sample a sixteenth of a pixel beside them
+    // has a depth far before the skin, and the walls of the mouth shine through the cheeks as dark
+    // specks. What is steep goes back by what it rises within a pixel.
     gl.enable(gl.POLYGON_OFFSET_FILL);
     gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     gl.clearColor(0, 0, 0, 0);
@@ -152,7 +152,8 @@ export class Renderer {
     };
     const transparent = runs.filter(({run}) => materials.blends(run.material));
     const ghost = style.opacity < 1;  // shines through as a whole
-    runs.filter((each) => !ghost || !transparent.includes(each)).forEach((each) => draw(each, true));
+    runs.filter((each) => !ghost || !transparent.includes(each)).forEach((each) => draw(each,
+        true));
     const alone = !gl.isEnabled(gl.BLEND);
     gl.enable(gl.BLEND);
     gl.depthMask(false);

@@ -2,12 +2,13 @@
 //
 //     const view = new HeadView(canvas, readModel(bytes));     // throws without WebGL2
 //     view.camera.listen(canvas);                               // mouse and touch
-//     view.show({3: 200, 5: -300});                             // by FAP number, missing ones are 0
+//     view.show({3: 200, 5: -300});                             // by FAP number, missing ones are
+//     0
 //
 // show() moves the head and draws it; call it once a displayed frame at most. Values are FAP units,
 // an array or an object; 1 may be {select1, select2, blend}, 2 {select1, intensity1, select2,
-// intensity2}, whose shapes are shown where the values have no own. Heads with shapes of their maker
-// are fitted.
+// intensity2}, whose shapes are shown where the values have no own. Heads with shapes of their
+// maker are fitted.
 import {Camera} from './camera.js';
 import {Renderer} from './gl.js';
 import {Rig} from './rig.js';
@@ -70,7 +71,8 @@ export class HeadView {
     const rigs = this.rigs && model === this.model && this.rigs[0].model === model ? this.rigs :
         Array.from({length: this.count}, () => new Rig(model));
     // ready: its pictures are decoded, and it is seen.
-    return {renderer, rigs, meshes: rigs.map((rig) => renderer.load(rig)), ready: renderer.materials.ready};
+    return {renderer, rigs, meshes: rigs.map((rig) => renderer.load(rig)),
+        ready: renderer.materials.ready};
   }
 
   /** Moves head `which` without drawing it, by FAPs. */
@@ -167,7 +169,8 @@ export class HeadView {
       `facing` is negative where the skin looks away. */
   points() {
     const scale = this.canvas.clientWidth / this.canvas.width || 1;
-    return this.views().flatMap(({head, view}) => this.model.points.map(({id, name, part, vertex}) => {
+    return this.views().flatMap(({head, view}) =>
+        this.model.points.map(({id, name, part, vertex}) => {
       const rig = this.rigs[head];
       const m = rig.transforms[part];
       const at = (array, shift) => [0, 1, 2].map((row) => m[row * 3] * array[vertex * 3] +

@@ -32,7 +32,9 @@ function trackName({lang, speaker}) {
 
 /** What the page does; controls and keys call it. */
 class App {
-  /** `model`: a head, null for none, an Error where it cannot be; `clips`: the bytes of one or two. */
+  /**
+   * `model`: a head, null for none, an Error where it cannot be; `clips`: the bytes of one or two.
+   */
   constructor(facts, model, clips) {
     this.clips = clips.filter(Boolean).map((bytes) => new Clip(bytes));
     this.hasSound = Boolean(facts.sound);
@@ -43,13 +45,16 @@ class App {
     this.needed = false;
     this.resume = false;
     this.viewport = new Viewport({
-      element: byId('viewport'), canvas: byId('picture'), overlay: byId('overlay'), tip: byId('tip'),
+      element: byId('viewport'), canvas: byId('picture'), overlay: byId('overlay'),
+          tip: byId('tip'),
       message: byId('message'), readout: byId('readout'), names: [byId('name0'), byId('name1')],
     }, model, this.clips, facts.faps);
     this.heads = facts.heads || [];
     this.models = [model];
     this.whose = 0;
-    /** Languages and people: what is said, and once they are loaded `clips` by head and `buffer`. */
+    /**
+     * Languages and people: what is said, and once they are loaded `clips` by head and `buffer`.
+     */
     this.tracks = (facts.tracks || [{lang: '', speaker: ''}]).map((track, i) => ({
       ...track, ...(i ? {} : facts), name: trackName(track), clips: i ? [] : [this.clips]}));
     this.track = 0;
@@ -114,7 +119,8 @@ class App {
   // Unpacks what is wanted, and then changes all of it at once.
   async exchange(whose, track) {
     const wanted = this.wanted = {whose, track};
-    if (this.models[whose] === undefined) this.models[whose] = readModel(await data(`model_${whose}`));
+    if (this.models[whose] === undefined) this.models[whose] =
+        readModel(await data(`model_${whose}`));
     const to = this.tracks[track];
     const own = await this.clipsOf(track, whose);
     await this.loadBuffer(track);
@@ -132,7 +138,8 @@ class App {
       this.curves.say(to);
       byId('now').lang = to.lang;
       byId('viewport').classList.toggle('says', to.phones.length > 0);
-      const seconds = Math.max(...first.map((clip) => clip.end), to.buffer ? to.buffer.duration : 0);
+      const seconds = Math.max(...first.map((clip) => clip.end),
+          to.buffer ? to.buffer.duration : 0);
       player.exchange(to.buffer || null, seconds);
       this.curves.choose(this.curves.faps);
     }
@@ -221,7 +228,8 @@ class App {
 
   /** By degrees to the person's left and up. */
   turnView(left, up) {
-    if (this.viewport.view) this.viewport.view.camera.turn(left * Math.PI / 180, up * Math.PI / 180);
+    if (this.viewport.view) this.viewport.view.camera.turn(left * Math.PI / 180,
+        up * Math.PI / 180);
   }
 
   fullscreen() {
@@ -246,7 +254,8 @@ function obey(app) {
   if (asked.has('speed')) app.player.setRate(number('speed'));
   if (asked.has('left') || asked.has('up') || asked.has('zoom')) {
     const {view} = app.viewport;
-    if (view) view.camera.reset(number('left') || 0, number('up') || 0, number('zoom') || undefined);
+    if (view) view.camera.reset(number('left') || 0, number('up') || 0,
+        number('zoom') || undefined);
   }
   // So much time at first that phones can be read.
   app.axis.show(0, byId('area').clientWidth / 200);
@@ -304,7 +313,8 @@ async function start() {
   };
   Object.assign(window.animeme, api);
   obey(app);
-  if (app.heads.includes(asked.get('head'))) await app.showHead(app.heads.indexOf(asked.get('head')));
+  if (app.heads.includes(asked.get('head'))) await app.showHead(
+      app.heads.indexOf(asked.get('head')));
   byId('now').lang = app.tracks[0].lang;
   if (facts.sound) {
     await player.loadSound(coded('sound')).catch(() => {

@@ -1,5 +1,5 @@
-// Light on materials, as tools/view/render/detail/material_light.cpp and material_painter.cpp have it: glTF's
-// metallic-roughness, VRM's two tones, none.
+// Light on materials, as tools/view/render/detail/material_light.cpp and material_painter.cpp have
+// it: glTF's metallic-roughness, VRM's two tones, none.
 
 export const MATERIAL_VERTEX = `#version 300 es
 layout(location = 0) in vec3 place;

@@ -72,7 +72,10 @@ export class Materials {
     return this.materials[number].alpha === 'blend';
   }
 
-  /** Sets the uniforms of a program that is in use. `hiding`: of a material that blends its opaque texels alone. */
+  /**
+   * Sets the uniforms of a program that is in use. `hiding`: of a material that blends its opaque
+   * texels alone.
+   */
   bind(number, program, hiding) {
     const {gl} = this;
     const material = this.materials[number];

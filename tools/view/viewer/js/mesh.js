@@ -52,7 +52,8 @@ export class Mesh {
     this.cornerNormals = this.attribute(1, normals, 3, gl.FLOAT, false, usage);
     const painted = this.gathered(paint, 4, new Uint8Array(facets.vertices.length * 4));
     // Cards of hair lie upon each other: the sky that they see would make spots.
-    if (this.part.surface === 'hair') painted.forEach((_, i) => { if (i % 4 === 3) painted[i] = 255; });
+    if (this.part.surface === 'hair') painted.forEach((_, i) => { if (i % 4 === 3) painted[i] = 255;
+        });
     this.attribute(2, painted, 4, gl.UNSIGNED_BYTE, true, gl.STATIC_DRAW);
     this.attribute(4, facets.uvs, 2, gl.FLOAT, false, gl.STATIC_DRAW);
     this.attribute(5, facets.own, 4, gl.SHORT, true, gl.STATIC_DRAW);

@@ -61,6 +61,7 @@ export function readModel(bytes) {
   if (header.version !== 4) throw new Error(`unknown version ${header.version} of the head format`);
   const {rig, parts: shapes} = loadRig(reader.u8(header.rig), header.parts.length);
   const parts = header.parts.map((info, i) => readPart(reader, info, shapes[i]));
-  const pictures = (header.pictures || []).map(({type, bytes: size}) => ({type, file: reader.u8(size)}));
+  const pictures = (header.pictures || []).map(({type, bytes: size}) =>
+      ({type, file: reader.u8(size)}));
   return {...header, rig, parts, pictures};
 }

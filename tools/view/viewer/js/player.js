@@ -5,7 +5,9 @@ import {StretchedSource} from './stretch.js';
 const LEAD = 0.02;  // seconds between a decision to play and the first sample
 const JUMP = 0.03;  // the steps of the audio clock are smoothed up to this many seconds
 
-/** The sound of a file, and silence behind it up to `duration` seconds. Rejects if the browser cannot
+/**
+ * The sound of a file, and silence behind it up to `duration` seconds. Rejects if the browser
+ * cannot
     decode it. */
 export async function decodedSound(bytes, duration) {
   const decoder = new OfflineAudioContext(1, 1, 48000);

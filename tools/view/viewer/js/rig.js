@@ -29,7 +29,8 @@ export function loadRig(bytes, count) {
   if (rig < 0) throw new Error('a damaged head');
   const parts = Array.from({length: count}, (_, i) => {
     const [positions, normals, size, triangles, faces, deforms] = vertices(wasm.part(rig, i), 6);
-    return {positions: floats(positions, size * 3).slice(), normals: floats(normals, size * 3).slice(),
+    return {positions: floats(positions, size * 3).slice(),
+        normals: floats(normals, size * 3).slice(),
       triangles: vertices(triangles, faces * 3).slice(), deforms: deforms !== 0};
   });
   return {rig, parts};
@@ -45,8 +46,11 @@ export class Rig {
     this.model = model;
     this.number = wasm.add(model.rig);
     const count = model.parts.length;
-    /** Of each part x, y, z of its vertices, before they are placed, and normals; what places it in the scene, [x row, y
-        row, z row, shift]: p becomes rows * p + shift. Good until the next call of anything here. */
+    /**
+     * Of each part x, y, z of its vertices, before they are placed, and normals; what places it in
+     * the scene, [x row, y
+        row, z row,
+            shift]: p becomes rows * p + shift. Good until the next call of anything here. */
     this.positions = lazy(count, (part) => this.moved(part, 'positions'));
     this.normals = lazy(count, (part) => this.moved(part, 'normals'));
     this.transforms = lazy(count, (part) => floats(wasm.transform(this.number, part), 12));
@@ -56,7 +60,9 @@ export class Rig {
     this.pose({});
   }
 
-  /** By FAP number, FAP units, missing ones are absent; 1 may be {select1, select2, blend}, 2 {select1,
+  /**
+   * By FAP number, FAP units, missing ones are absent; 1 may be {select1, select2, blend}, 2
+   * {select1,
       intensity1, select2, intensity2}. */
   pose(values) {
     const at = wasm.frame();
@@ -64,7 +70,8 @@ export class Rig {
     const [viseme, expression] = [integers(at + 8 * 69, 3), integers(at + 8 * 69 + 12, 4)];
     for (let fap = 1; fap <= 68; ++fap) {
       const wanted = values[fap];
-      if (wanted === undefined || wanted === null || (fap < 3 && typeof wanted !== 'object')) continue;
+      if (wanted === undefined || wanted === null || (fap < 3 && typeof wanted !== 'object'))
+          continue;
       given[fap] = 1;
       if (fap > 2) value[fap] = Math.round(wanted);
       else if (fap === 1) viseme.set([wanted.select1, wanted.select2, wanted.blend]);
@@ -75,7 +82,8 @@ export class Rig {
 
   /** By control: FAPs, then the weights of the shapes of the head, as clips have them. */
   move(values) {
-    floats(wasm.values(this.number), this.model.controls).set(values.subarray(0, this.model.controls));
+    floats(wasm.values(this.number), this.model.controls).set(values.subarray(0,
+        this.model.controls));
     wasm.move(this.number);
   }
 

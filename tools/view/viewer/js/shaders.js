@@ -1,6 +1,7 @@
-// Light as in the software renderer (tools/view/render/detail/shade.cpp): a warm key light with a red
-// terminator, a cool fill, sky and ground, a rim, a filmic curve. At the edges of triangles values are
-// taken inside of them (centroid), else thin parts such as the rims of lips get dark specks.
+// Light as in the software renderer (tools/view/render/detail/shade.cpp): a warm key light with a
+// red terminator, a cool fill, sky and ground, a rim, a filmic curve. At the edges of triangles
+// values are taken inside of them (centroid), else thin parts such as the rims of lips get dark
+// specks.
 
 const VERSION = '#version 300 es\n';
 

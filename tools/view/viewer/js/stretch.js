@@ -6,7 +6,8 @@ const WINDOW_HOP = 0.012;  // seconds from window to window; each one lasts two
 const REACH = 0.008;  // seconds around its place in which a window is looked for
 const COARSE = 4;  // samples to a step of the first search
 
-const wrap = (at, begin, end) => begin + ((at - begin) % (end - begin) + end - begin) % (end - begin);
+const wrap = (at, begin, end) => begin + ((at - begin) % (end - begin) +
+    end - begin) % (end - begin);
 
 /** Reads channels (Float32Array each, of one length) from `from` seconds on, at `rate` times their
     speed, `loop` [from, to] in seconds again and again. Silence lies around the sound. */
@@ -79,8 +80,8 @@ export class Stretcher {
     return out;
   }
 
-  // What lies before and behind the sound is silent. At the end of a loop a window goes on behind it
-  // while the next one, from its beginning, fades in.
+  // What lies before and behind the sound is silent. At the end of a loop a window goes on behind
+  // it while the next one, from its beginning, fades in.
   cut(channel, from, length) {
     const out = new Float32Array(length);
     const begin = Math.max(from, 0);
@@ -91,8 +92,8 @@ export class Stretcher {
   }
 }
 
-// The shift within `centre` - `span` .. `centre` + `span` (steps of `step`) at which `around`, whose
-// shift 0 begins at `middle`, is most like `wanted`; nearer ones before farther ones.
+// The shift within `centre` - `span` .. `centre` + `span` (steps of `step`) at which `around`,
+// whose shift 0 begins at `middle`, is most like `wanted`; nearer ones before farther ones.
 function best(wanted, around, middle, centre, span, step) {
   let [shift, most] = [centre, 0];
   for (let k = 0; k <= span; k += step) {
@@ -122,7 +123,8 @@ export class StretchedSource {
   /** `begin(lead)` of the result is to be called once. */
   constructor(context, buffer, output, {rate, from, loop}) {
     Object.assign(this, {context, output, rate: buffer.sampleRate});
-    const channels = Array.from({length: buffer.numberOfChannels}, (_, c) => buffer.getChannelData(c));
+    const channels = Array.from({length: buffer.numberOfChannels},
+        (_, c) => buffer.getChannelData(c));
     this.stretcher = new Stretcher(channels, buffer.sampleRate, {rate, from, loop});
     this.pieces = new Set();
     this.length = Math.round(PIECE * buffer.sampleRate);

@@ -24,7 +24,8 @@ class Turn {
   next(coded) {
     const expected = this.value + this.speed, off = coded - expected;
     const wanted = expected + FOLLOW * off, next = near(wanted, coded, this.step);
-    this.speed += next === wanted ? FOLLOW_SPEED * off : TAKE_SPEED * (next - this.value - this.speed);
+    this.speed += next === wanted ? FOLLOW_SPEED * off :
+        TAKE_SPEED * (next - this.value - this.speed);
     return this.value = next;
   }
 }
@@ -54,7 +55,9 @@ export class TurnSmoother {
   }
 }
 
-/** For clips: the columns of these FAPs, eased forwards and backwards; those that stay are missing. */
+/**
+ * For clips: the columns of these FAPs, eased forwards and backwards; those that stay are missing.
+ */
 export function easedTurns(columns) {
   const out = {};
   for (const fap of TURNS) {

@@ -1,7 +1,10 @@
 #!/bin/sh
-# Compiles rig.wasm, the WebAssembly that moves the heads of pages, and notes the compiler in rig.wasm.compiler.
-#   tools/view/viewer/rig/make.sh [FOLDER]     into FOLDER; without one into its own, where the build takes it from
-# Needs clang 14 or later with a C++ library for WebAssembly: "tools/setup.sh full" installs it on Debian. Elsewhere
+# Compiles rig.wasm, the WebAssembly that moves the heads of pages, and notes the compiler in
+# rig.wasm.compiler.
+#   tools/view/viewer/rig/make.sh [FOLDER]     into FOLDER; without one into its own, where the
+#                                              build takes it from
+# Needs clang 14 or later with a C++ library for WebAssembly: "tools/setup.sh full" installs it on
+# Debian. Elsewhere
 # ANIMEME_WASM_CXX names the command, e.g. "clang++ --sysroot=/opt/wasi-sdk/share/wasi-sysroot".
 # Exit code 77: there is no such compiler.
 set -eu
@@ -16,10 +19,12 @@ flags="--target=wasm32-wasi -std=c++20 -Os -fno-exceptions -fno-rtti -fno-thread
   -ffp-contract=off -Wl,--strip-all -Wl,-z,stack-size=262144 -Wl,--stack-first"
 echo '#include <vector>' >"$work/trial.cpp"
 compiler=""
-for candidate in "${ANIMEME_WASM_CXX:-clang++-14}" clang++ "clang++ --sysroot=/opt/wasi-sdk/share/wasi-sysroot" \
+for candidate in "${ANIMEME_WASM_CXX:-clang++-14}" clang++ \
+  "clang++ --sysroot=/opt/wasi-sdk/share/wasi-sysroot" \
   "clang++ --sysroot=/opt/homebrew/share/wasi-sysroot"; do
   # shellcheck disable=SC2086  # words
-  [ -n "$compiler" ] || ! $candidate $flags -o "$work/trial.wasm" "$work/trial.cpp" 2>"$work/why" || compiler=$candidate
+  [ -n "$compiler" ] ||
+    ! $candidate $flags -o "$work/trial.wasm" "$work/trial.cpp" 2>"$work/why" || compiler=$candidate
 done
 [ -n "$compiler" ] || {
   echo "No clang here has a C++ library for WebAssembly. Debian 12: apt-get install clang-14 lld-14 wasi-libc" >&2

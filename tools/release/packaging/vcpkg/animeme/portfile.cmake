@@ -3,7 +3,8 @@
 get_filename_component(SOURCE_PATH "${CMAKE_CURRENT_LIST_DIR}/../../../../.." ABSOLUTE)
 
 vcpkg_check_features(OUT_FEATURE_OPTIONS features FEATURES dam ANIMEME_BUILD_DAM)
-# libanimeme is one shared object with names of its own; where libraries are archives, those of C++ are all there is.
+# libanimeme is one shared object with names of its own; where libraries are archives, those of C++
+# are all there is.
 string(COMPARE EQUAL "${VCPKG_LIBRARY_LINKAGE}" "dynamic" shared)
 vcpkg_cmake_configure(SOURCE_PATH "${SOURCE_PATH}" OPTIONS ${features}
   -DANIMEME_BUILD_TOOLS=OFF -DANIMEME_BUILD_TESTS=OFF -DANIMEME_BUILD_C=${shared})

@@ -1,4 +1,5 @@
-"""Of livekit-rtc what FaceOutput and its tests use: frames of sound, events, a room that keeps what was published."""
+"""Of livekit-rtc what FaceOutput and its tests use: frames of sound, events, a room that keeps what
+was published."""
 import asyncio
 from collections import defaultdict
 from typing import Generic, TypeVar

@@ -1,4 +1,5 @@
-"""Of livekit-agents (livekit/agents/voice/io.py of 2026) the audio output: how segments, playback and outputs in front of
+"""Of livekit-agents (livekit/agents/voice/io.py of 2026) the audio output: how segments, playback
+and outputs in front of
 outputs go together."""
 import asyncio
 from abc import ABC, abstractmethod
@@ -37,8 +38,10 @@ class AudioOutput(ABC, rtc.EventEmitter[str]):
         self._news = asyncio.Event()
         self._last = PlaybackFinishedEvent(0, False)
         if next_in_chain is not None:
-            next_in_chain.on("playback_finished", lambda event: self.on_playback_finished(**vars(event)))
-            next_in_chain.on("playback_started", lambda event: self.on_playback_started(**vars(event)))
+            next_in_chain.on("playback_finished",
+                lambda event: self.on_playback_finished(**vars(event)))
+            next_in_chain.on("playback_started",
+                lambda event: self.on_playback_started(**vars(event)))
 
     @property
     def next_in_chain(self):
