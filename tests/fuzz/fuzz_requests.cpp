@@ -21,7 +21,7 @@ void require(bool condition) {
   if (!condition) std::abort();
 }
 
-constexpr int kMostHeads = 3, kHealthEvery = 64;
+constexpr int kMostHeads = 3, kHealthEvery = 8;
 
 // A voice that says nothing.
 Result<speech::LineMaker> silent_voice(const voice::VoiceOptions& options) {

@@ -90,6 +90,20 @@ class Heads(unittest.TestCase):
     def figures(self, name):
         return self.server.json("/heads/" + name)[1]["figures"]
 
+    def test_requests_before_an_answer_stop_nobody_else(self):
+        body = b'{"lang": "en", "mood": "joy:0.5"}'
+        length = b"Content-Length: %d\r\n\r\n" % len(body) + body
+        host = b"\r\nHost: 127.0.0.1\r\n"
+        put = b"PUT /heads/anna HTTP/1.1" + host + length
+        for bytes_sent in [put + put, put + put[:60], put + b"GET /health HTTP/1.1" + host + b"\r\n",
+                           b"GET /healvh HTTP/1.1\r\n\r\nGET /heads 1" + host + length,
+                           b"GET /heads HTTP/1.1" + host + length + b"x" * 50]:
+            with socket.create_connection(("127.0.0.1", self.server.port)) as client:
+                client.sendall(bytes_sent)
+                self.assertEqual(self.server.ask("/health")[0], 200, bytes_sent)
+                client.shutdown(socket.SHUT_WR)
+                self.assertEqual(self.server.ask("/health")[0], 200, bytes_sent)
+
     def test_a_head_is_made_talks_and_goes(self):
         made = self.server.json("/heads/anna", "PUT", '{"lang": "en+f3", "seed": 7}')
         self.assertEqual(made, (201, {"name": "anna", "path": "/heads/anna/"}))

@@ -79,7 +79,7 @@ int Server::handle(lws* wsi, lws_callback_reasons reason, const char* in, std::s
     case LWS_CALLBACK_HTTP_BODY:
       return waits_for_peer_connections(wsi) ? whep_body(wsi, in, size) : take_body(wsi, in, size);
     case LWS_CALLBACK_HTTP_BODY_COMPLETION:
-      return waits_for_peer_connections(wsi) ? whep_offer(wsi) : ask_handler(wsi);
+      return body_over(wsi);
     case LWS_CALLBACK_HTTP_WRITEABLE: {
       const auto session = sessions_.find(wsi);
       if (session == sessions_.end()) return 0;
@@ -184,6 +184,16 @@ bool Server::admit(lws* wsi, Session& session) {
   session.open = true;
   session.broadcast->watching.insert(wsi);
   return true;
+}
+
+/// A client that sends its next request before it has the answer to this one is disconnected:
+/// libwebsockets takes the next request for the end of this one, again and again, and serves nobody
+/// else. (Flow control would hold back the answer, too.)
+int Server::body_over(lws* wsi) {
+  const auto session = sessions_.find(wsi);
+  if (session == sessions_.end() || session->second.body_over) return -1;
+  session->second.body_over = true;
+  return waits_for_peer_connections(wsi) ? whep_offer(wsi) : ask_handler(wsi);
 }
 
 /// The answer is complete.

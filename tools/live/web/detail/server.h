@@ -66,6 +66,7 @@ struct Session {
   std::deque<std::string> told;
   std::optional<ChunkReader> chunks;  // of a body in chunks
   bool whole = false;                 // the body is complete
+  bool body_over = false;             // likewise, as libwebsockets said
   bool paused = false;                // nothing is read
   Hub::Clock::time_point heard = Hub::Clock::now();
 };
@@ -145,6 +146,7 @@ class Server {
   int whep_reply(lws* wsi, Answer answer, const std::string& text);
   void hand_out_answers();
   int write_body(lws* wsi, Session& session);
+  int body_over(lws* wsi);
   int transaction_over(lws* wsi);
   bool send_message(lws* wsi, Session& session, const Message& message);
   int write_message(lws* wsi, Session& session);
