@@ -317,6 +317,13 @@ class Viewers(unittest.TestCase):
         made = hmac.new(b"secret", f"animeme ticket\nanna\n{ticket['expires']}".encode(),
             hashlib.sha256).hexdigest()
         self.assertEqual(ticket["ticket"], f"{ticket['expires']}-{made}")
+        # A program with the token makes tickets by the lines of requests.md.
+        page = os.path.join(os.path.dirname(__file__), "../../../tools/live/serve/requests.md")
+        with open(page) as file:
+            block = file.read().split("```python\n")[1].split("```")[0]
+        own = {"time": time, "hmac": hmac, "hashlib": hashlib, "token": b"secret", "name": "anna"}
+        exec(block, own)
+        self.assertEqual(self.server.ask("/heads/anna/info.json?ticket=" + own["ticket"])[0], 200)
         query = "?ticket=" + ticket["ticket"]
         self.assertEqual(self.server.ask("/heads/anna/info.json" + query)[0], 200)
         self.assertEqual(self.server.ask("/heads/ben/info.json" + query)[0], 403)

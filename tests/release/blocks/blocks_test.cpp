@@ -84,6 +84,7 @@ const std::map<std::string, std::string> kElsewhere = {
     {"tools/bindings/npm/README.md js 2", "tests/release/blocks/blocks_test.mjs"},
     {"tools/bindings/npm/README.md js 3", "tests/release/blocks/blocks_test.mjs"},
     {"tools/bindings/python/README.md python 1", "tests/bindings/python/test_pages.py"},
+    {"tools/live/serve/requests.md python 1", "tests/live/serve/say_test.py"},
     {"tools/live/web/README.md js 1", "tests/view/viewer/js/viewer_report.js"},
     {"tools/live/web/README.md html 1", "tests/live/web/embed_test.cpp"},
     {"tools/live/web/protocol.md js 1", "tests/live/web/embed_test.cpp"},
