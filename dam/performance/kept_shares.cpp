@@ -1,8 +1,8 @@
 #include "dam/performance/kept_shares.h"
 
 #include <algorithm>
-#include <charconv>
 
+#include "fap/detail/real_text.h"
 #include "fap/edit.h"
 
 namespace animeme::dam {
@@ -26,7 +26,8 @@ Result<KeptShares> parse_kept_shares(const std::string& text, const PartOfFace& 
     const std::size_t equals = one.find('=');
     const std::string number = equals == std::string::npos ? "" : one.substr(equals + 1);
     double share = -1;
-    const auto [end, status] = std::from_chars(number.data(), number.data() + number.size(), share);
+    const auto [end, status] =
+        fap::detail::read_real(number.data(), number.data() + number.size(), share);
     if (status != std::errc() || end != number.data() + number.size() ||
         !(share >= 0 && share <= 1)) {
       return make_error(Code::invalid_argument,
