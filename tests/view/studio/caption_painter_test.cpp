@@ -4,10 +4,6 @@
 
 #include "tools/view/studio/captions.h"
 
-// Read by the leak sanitizer: fontconfig keeps its list of fonts until the process ends.
-extern "C" const char* __lsan_default_suppressions();
-extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig\n"; }
-
 namespace animeme::studio {
 namespace caption_painter_test {
 
