@@ -12,6 +12,8 @@ suite=bookworm
 inside() {
   root=$1
   echo 'somebody:x:1000:1000::/home/somebody:/bin/bash' >>"$root/etc/passwd"
+  # Without it sudo refuses the account.
+  echo 'somebody:*:19000:0:99999:7:::' >>"$root/etc/shadow"
   echo 'somebody ALL=(ALL) NOPASSWD: ALL' >"$root/etc/sudoers.d/somebody"
   mkdir -p "$root/home/somebody"
   cp -r "$CLONE" "$root/home/somebody/animeme"
