@@ -132,24 +132,6 @@ Result<std::vector<std::uint8_t>> scaled(const AVFrame& frame, int width, int he
 
 }  // namespace
 
-Result<Pixels> svg_to_rgba(std::string_view svg) {
-  return av::guarded([&]() -> Result<Pixels> {
-    const av::LogCapture log;
-    Result<av::Frame> rgb = rgb_of(svg);
-    if (!rgb) return rgb.error();
-    const AVFrame& frame = **rgb;
-    Pixels pixels{frame.width, frame.height, {}};
-    pixels.rgba.reserve(std::size_t(frame.width) * std::size_t(frame.height) * 4);
-    for (int y = 0; y < frame.height; ++y) {
-      const std::uint8_t* row = frame.data[0] + std::ptrdiff_t(y) * frame.linesize[0];
-      for (int x = 0; x < frame.width; ++x) {
-        pixels.rgba.insert(pixels.rgba.end(), {row[3 * x], row[3 * x + 1], row[3 * x + 2], 255});
-      }
-    }
-    return pixels;
-  });
-}
-
 Result<Pixels> svg_to_overlay(std::string_view svg) {
   return av::guarded([&]() -> Result<Pixels> {
     const av::LogCapture log;
@@ -170,6 +152,13 @@ Result<Pixels> svg_to_overlay(std::string_view svg) {
     }
     return pixels;
   });
+}
+
+Result<Pixels> svg_to_rgba(std::string_view svg) {
+  Result<Pixels> pixels = svg_to_overlay(svg);
+  if (!pixels) return pixels;
+  for (std::size_t i = 3; i < pixels->rgba.size(); i += 4) pixels->rgba[i] = 255;
+  return pixels;
 }
 
 Result<Pixels> covering_picture(std::span<const std::uint8_t> file, int width, int height) {

@@ -166,8 +166,8 @@ Result<VideoEncoder> VideoEncoder::open(const VideoSettings& settings) {
     impl->packet.reset(av_packet_alloc());
     if (!impl->frame || !impl->packet) return av::no_memory();
     const AVCodecContext& context = *impl->codec;
-    impl->video = {settings.codec, settings.width, settings.height, settings.rate, {}, false, {}};
-    impl->video.alpha = settings.alpha;
+    impl->video = {
+        settings.codec, settings.width, settings.height, settings.rate, {}, settings.alpha, {}};
     impl->video.config.assign(context.extradata, context.extradata + context.extradata_size);
     return VideoEncoder(std::move(impl));
   });

@@ -145,7 +145,7 @@ class Writer {
     return this.json.accessors.length - 1;
   }
 
-  indices(values, size) {
+  indices(values) {
     return this.accessor({bufferView: this.view(new Uint8Array(Uint16Array.from(values).buffer),
         values.length, 2, 'TRIANGLES'),
       componentType: 5123, count: values.length, type: 'SCALAR'});
@@ -327,7 +327,7 @@ function meshOf(part, material, out) {
     }
     attributes.WEIGHTS_0 = out.bytes(weights, 5121, 4, {normalized: true});
   }
-  const primitive = {attributes, indices: out.indices(part.indices, count), material};
+  const primitive = {attributes, indices: out.indices(part.indices), material};
   const names = [], targets = [];
   part.names.forEach((name, i) => {
     const index = out.moves(part.moves[i]);

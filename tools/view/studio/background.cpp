@@ -1,10 +1,11 @@
 #include "tools/view/studio/background.h"
 
 #include <algorithm>
-#include <cctype>
+#include <charconv>
 #include <iterator>
 #include <optional>
 
+#include "fap/detail/text_scanner.h"
 #include "tools/formats/files/files.h"
 #include "tools/formats/media/picture.h"
 #include "tools/view/studio/picture_file.h"
@@ -27,37 +28,21 @@ constexpr NamedColour kNamedColours[] = {
     {"aqua", 0x00FFFF},    {"orange", 0xFFA500},
 };
 
-std::optional<int> digit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return std::nullopt;
-}
-
 // "#RGB" or "#RRGGBB".
 std::optional<std::uint32_t> hexadecimal(std::string_view text) {
   if (!text.starts_with('#') || (text.size() != 4 && text.size() != 7)) return std::nullopt;
   std::uint32_t colour = 0;
-  for (const char c : text.substr(1)) {
-    const auto value = digit(c);
-    if (!value) return std::nullopt;
-    colour = colour << 4 | std::uint32_t(*value);
-    if (text.size() == 4) colour = colour << 4 | std::uint32_t(*value);
-  }
-  return colour;
-}
-
-std::string lower(std::string_view text) {
-  std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(),
-                 [](char c) { return char(std::tolower(static_cast<unsigned char>(c))); });
-  return out;
+  const char* end = text.data() + text.size();
+  const auto [stop, status] = std::from_chars(text.data() + 1, end, colour, 16);
+  if (status != std::errc() || stop != end) return std::nullopt;
+  if (text.size() == 7) return colour;
+  return (colour >> 8 & 15) * 0x110000 | (colour >> 4 & 15) * 0x1100 | (colour & 15) * 0x11;
 }
 
 }  // namespace
 
 Result<Background> parse_background(std::string_view text) {
-  const std::string plain = lower(text);
+  const std::string plain = fap::detail::lower_case(text);
   if (plain == "none" || plain == "transparent") return Background{Background::Kind::none, 0, {}};
   if (const auto colour = hexadecimal(plain))
     return Background{Background::Kind::colour, *colour, {}};
