@@ -25,6 +25,13 @@ def ask(url, method="GET", body=None, headers=None, timeout=30):
         return refused.code, refused.read().decode()
 
 
+def free_port():
+    """A port of this machine that nobody has at the moment."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
 def until(condition, seconds=30):
     """What `condition` gives as soon as that is true; False: it never was."""
     end = time.monotonic() + seconds

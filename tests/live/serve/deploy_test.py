@@ -17,7 +17,7 @@ import tempfile
 import time
 import unittest
 
-from client import Server, Socket, until
+from client import Server, Socket, free_port, until
 
 PROGRAM, FOLDER = sys.argv[1:3]
 NAME = "heads.example.org"
@@ -25,12 +25,6 @@ NAME = "heads.example.org"
 
 def find(program):
     return shutil.which(program, path=os.environ.get("PATH", "") + ":/usr/sbin:/sbin")
-
-
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
 
 
 class Secure:

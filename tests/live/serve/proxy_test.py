@@ -5,19 +5,12 @@ Skips (77) without haproxy."""
 import os
 import shutil
 import signal
-import socket
 import subprocess
 import sys
 
-from client import Server, Socket, ask, until
+from client import Server, Socket, ask, free_port, until
 
 PROGRAM, CONFIGURATION = sys.argv[1:3]
-
-
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
 
 
 def check(condition, what):

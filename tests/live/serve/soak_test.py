@@ -16,18 +16,12 @@ import sys
 import threading
 import time
 
-from client import Server, Socket, ask
+from client import Server, Socket, ask, free_port
 
 PROGRAM = sys.argv[1]
 SECONDS = float(sys.argv[2]) if len(sys.argv) > 2 else 60
 HEADS = int(sys.argv[3]) if len(sys.argv) > 3 else 12
 REDEPLOYS = int(sys.argv[4]) if len(sys.argv) > 4 else 3
-
-
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
 
 
 class Owner:
