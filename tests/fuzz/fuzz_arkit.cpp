@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <string_view>
 
+#include "tests/fuzz/require.h"
 #include "tools/formats/exchange/arkit.h"
 
-namespace {
+using animeme::test::require;
 
-void require(bool condition) {
-  if (!condition) std::abort();
-}
+namespace {
 
 void check(const animeme::exchange::Imported& take) {
   require(take.clip.rate.valid() && !take.clip.frames.empty());

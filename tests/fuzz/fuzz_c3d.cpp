@@ -2,23 +2,21 @@
 // to what finds key shapes and fits frames.
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <string_view>
 
 #include "dam/crossmap/blend.h"
 #include "dam/crossmap/face_points.h"
 #include "dam/crossmap/key_shapes.h"
+#include "tests/fuzz/require.h"
 #include "tools/formats/exchange/c3d.h"
 #include "tools/formats/exchange/points.h"
+
+using animeme::test::require;
 
 namespace {
 
 using namespace animeme;
 using namespace animeme::exchange;
-
-void require(bool condition) {
-  if (!condition) std::abort();
-}
 
 void use(PointRecording take) {
   dam::PointTrack& track = take.track;

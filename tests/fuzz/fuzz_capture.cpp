@@ -2,21 +2,19 @@
 // same bytes are a column map and a neutral face, too. The last byte chooses.
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <string_view>
 
+#include "tests/fuzz/require.h"
 #include "tools/formats/exchange/arkit.h"
 #include "tools/formats/exchange/capture_table.h"
 #include "tools/formats/exchange/face_file.h"
+
+using animeme::test::require;
 
 namespace {
 
 using namespace animeme;
 using namespace animeme::exchange;
-
-void require(bool condition) {
-  if (!condition) std::abort();
-}
 
 template <class T>
 void says_why(const Result<T>& result) {

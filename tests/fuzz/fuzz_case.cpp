@@ -2,17 +2,15 @@
 // reads back equal from the writer.
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 #include <string_view>
 
 #include "conformance/case_file.h"
+#include "tests/fuzz/require.h"
+
+using animeme::test::require;
 
 namespace {
-
-void require(bool condition) {
-  if (!condition) std::abort();
-}
 
 void check_name(const std::string& name) {
   require(!name.empty() && name != "." && name != ".." && name[0] != '-');

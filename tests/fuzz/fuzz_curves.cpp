@@ -14,16 +14,15 @@
 #include "dam/corpus/corpus.h"
 #include "dam/corpus/rows_internal.h"
 #include "dam/signal/gain_offset.h"
+#include "tests/fuzz/require.h"
 #include "tools/formats/exchange/curves.h"
 #include "tools/formats/exchange/pose_table.h"
+
+using animeme::test::require;
 
 namespace {
 
 using namespace animeme;
-
-void require(bool condition) {
-  if (!condition) std::abort();
-}
 
 void read_with_blanks(std::string_view text) {
   std::vector<dam::BlankNote> blanks;

@@ -2,19 +2,13 @@
 // repair_stream() makes of them decodes.
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 
 #include "codec/decode/access_unit.h"
 #include "codec/decode/repair.h"
 #include "tests/fuzz/event_trace.h"
+#include "tests/fuzz/require.h"
 
-namespace {
-
-void require(bool condition) {
-  if (!condition) std::abort();
-}
-
-}  // namespace
+using animeme::test::require;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace animeme;

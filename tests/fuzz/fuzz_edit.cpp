@@ -14,11 +14,14 @@
 #include "codec/decode/decoder.h"
 #include "codec/text/bap_text.h"
 #include "fap/text.h"
+#include "tests/fuzz/require.h"
 #include "tools/app/commands/command.h"
 #include "tools/app/commands/parse_line.h"
 #include "tools/app/commands/terminal.h"
 #include "tools/formats/files/files.h"
 #include "tools/formats/media/container.h"
+
+using animeme::test::require;
 
 namespace {
 
@@ -29,10 +32,6 @@ constexpr const char* kOptions[] = {"at",    "from",   "to",   "offset",     "ra
                                     "scale", "smooth", "fade", "cross-fade", "quant", "take"};
 constexpr const char* kFlags[] = {"--copy", "--mirror", "--no-sound"};
 constexpr const char* kOutputs[] = {"out.fba", "out.fap", "out.bap", "out.mkv"};
-
-void require(bool condition) {
-  if (!condition) std::abort();
-}
 
 // In memory where the system has such a folder.
 struct Folder {

@@ -15,6 +15,9 @@
 #include "codec/decode/fill.h"
 #include "codec/encode/encode.h"
 #include "codec/encode/live.h"
+#include "tests/fuzz/require.h"
+
+using animeme::test::require;
 
 namespace {
 
@@ -25,10 +28,6 @@ using Bytes = std::vector<std::uint8_t>;
 [[noreturn]] void fail(const std::string& what) {
   std::fprintf(stderr, "fuzz_encode: %s\n", what.c_str());
   std::abort();
-}
-
-void require(bool condition, const char* what) {
-  if (!condition) fail(what);
 }
 
 // Numbers from the input; zeros when it is used up.

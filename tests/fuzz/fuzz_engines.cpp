@@ -2,14 +2,16 @@
 // and not more of them than time and packets allow. The first byte chooses the protocol; a datagram
 // is a byte of time, one of its sender, its length (big endian, two bytes) and its bytes.
 #include <cstdint>
-#include <cstdlib>
 #include <deque>
 #include <iterator>
 #include <span>
 #include <string>
 
+#include "tests/fuzz/require.h"
 #include "tools/formats/media/live/live_frames.h"
 #include "tools/live/engines/detail/engine_input.h"
+
+using animeme::test::require;
 
 using namespace animeme;
 
@@ -20,7 +22,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                         "livelink://?rate=60", "vmc://?rate=120", "osc://?rate=15"};
   const auto address =
       engines::parse_engine_address(kAddresses[bytes[0] % std::size(kAddresses)], true);
-  if (!address) std::abort();
+  require(bool(address));
   bytes = bytes.subspan(1);
   engines::EngineInput input(*address, {.any_source = data[0] >= 128});
   std::deque<media::LiveEvent> events;
@@ -31,19 +33,19 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string host = "127.0.0." + std::to_string(1 + bytes[1] % 4);
     const std::size_t length = std::min(bytes.size() - 4, std::size_t(256 * bytes[2] + bytes[3]));
     const auto from = media::UdpAddress::resolve(host, 5000);
-    if (!from || !input.tick(now, events)) std::abort();
-    if (!input.push(bytes.subspan(4, length), *from, now, events)) std::abort();
+    require(from && input.tick(now, events));
+    require(bool(input.push(bytes.subspan(4, length), *from, now, events)));
     bytes = bytes.subspan(4 + length);
     ++packets;
     const double most = 120 * (now - 1000 + 8 * double(input.stats().sessions + 1)) + 1000;
-    if (double(events.size()) > most) std::abort();
+    require(double(events.size()) <= most);
   }
-  if (input.stats().packets != packets || input.stats().foreign > packets) std::abort();
+  require(input.stats().packets == packets && input.stats().foreign <= packets);
   media::LiveFrames frames(media::GapRule::skip, fap::FillOptions{.complete = true});
   std::int64_t last = -1;
   for (const media::LiveEvent& event : events) {
     if (const auto* unit = std::get_if<media::LiveUnit>(&event)) {
-      if (unit->time <= last || frames.push(*unit, 90000, false).empty()) std::abort();
+      require(unit->time > last && !frames.push(*unit, 90000, false).empty());
       last = unit->time;
     } else if (!std::holds_alternative<media::LiveGap>(event)) {
       last = -1;

@@ -2,19 +2,17 @@
 // and comparing. The first byte chooses the options.
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <string_view>
 
 #include "fap/compare.h"
 #include "fap/fill.h"
 #include "fap/players.h"
 #include "fap/text.h"
+#include "tests/fuzz/require.h"
+
+using animeme::test::require;
 
 namespace {
-
-void require(bool condition) {
-  if (!condition) std::abort();
-}
 
 void check(const animeme::fap::Sequence& clip) {
   using namespace animeme::fap;

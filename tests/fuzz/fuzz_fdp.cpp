@@ -4,21 +4,19 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 #include <string_view>
 
 #include "fap/head/wrl.h"
 #include "fap/xml/fdp.h"
 #include "fap/xml/xmt.h"
+#include "tests/fuzz/require.h"
+
+using animeme::test::require;
 
 namespace {
 
 using namespace animeme;
-
-void require(bool condition) {
-  if (!condition) std::abort();
-}
 
 void check(const std::vector<head::Piece>& pieces) {
   require(!pieces.empty());

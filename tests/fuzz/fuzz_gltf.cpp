@@ -11,17 +11,16 @@
 
 #include "fap/head/own_head.h"
 #include "fap/head/rig.h"
+#include "tests/fuzz/require.h"
 #include "tools/view/gltf/detail/file_edit.h"
 #include "tools/view/gltf/read_head.h"
+
+using animeme::test::require;
 
 namespace {
 
 using animeme::head::Source;
 using animeme::head::Vec3;
-
-void require(bool fine) {
-  if (!fine) std::abort();
-}
 
 bool finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 

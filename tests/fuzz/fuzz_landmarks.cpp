@@ -2,19 +2,17 @@
 // chooses the options.
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <string_view>
 
+#include "tests/fuzz/require.h"
 #include "tools/formats/exchange/landmarks.h"
+
+using animeme::test::require;
 
 namespace {
 
 using namespace animeme;
 using namespace animeme::exchange;
-
-void require(bool condition) {
-  if (!condition) std::abort();
-}
 
 LandmarkImportOptions options_of(std::uint8_t choice) {
   LandmarkImportOptions options;

@@ -3,22 +3,20 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "tests/fuzz/require.h"
 #include "tools/speech/talking/line_cutter_internal.h"
 #include "tools/speech/talking/phone_line.h"
+
+using animeme::test::require;
 
 namespace {
 
 using namespace animeme;
 using speech::LineCutter;
-
-void require(bool condition) {
-  if (!condition) std::abort();
-}
 
 constexpr std::size_t kMost = 1000;  // bytes of a line
 

@@ -2,18 +2,16 @@
 // the second reading is the first one.
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "tests/fuzz/require.h"
 #include "tools/app/batch/manifest.h"
 
-namespace {
+using animeme::test::require;
 
-void require(bool condition) {
-  if (!condition) std::abort();
-}
+namespace {
 
 // All rows and errors, as one text.
 std::string rows_of(animeme::batch::Manifest& manifest, std::size_t bytes) {

@@ -3,19 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <string_view>
 
 #include "fap/head/obj.h"
 #include "fap/head/point_list.h"
+#include "tests/fuzz/require.h"
+
+using animeme::test::require;
 
 namespace {
 
 using namespace animeme;
-
-void require(bool fine) {
-  if (!fine) std::abort();
-}
 
 void check(const head::ObjFile& file) {
   require(!file.pieces.empty());

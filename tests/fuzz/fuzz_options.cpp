@@ -1,7 +1,6 @@
 // Texts of options that have readers of their own: tracks, rates, ranges, looks, commands.
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,19 +9,18 @@
 #include "dam/behaviour/look.h"
 #include "dam/script/mood.h"
 #include "fap/rate_text.h"
+#include "tests/fuzz/require.h"
 #include "tools/formats/media/track_labels.h"
 #include "tools/formats/programs/command_template.h"
 #include "tools/speech/talking/cue_voice.h"
 #include "tools/speech/talking/sound_bytes.h"
 #include "tools/view/gltf/shape_rules.h"
 
+using animeme::test::require;
+
 namespace {
 
 using namespace animeme;
-
-void require(bool condition) {
-  if (!condition) std::abort();
-}
 
 template <class T>
 bool says_why(const Result<T>& result) {

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <span>
 #include <string>
 #include <utility>
@@ -18,14 +17,13 @@
 #include "dam/script/phones.h"
 #include "dam/signal/fap_signal.h"
 #include "dam/speaking/synthesise.h"
+#include "tests/fuzz/require.h"
+
+using animeme::test::require;
 
 namespace {
 
 using namespace animeme;
-
-void require(bool condition) {
-  if (!condition) std::abort();
-}
 
 constexpr std::size_t kPhones = 12, kMostFrames = 2000;
 

@@ -1,21 +1,19 @@
 // Any bytes as a picture: an error, or as many texels as its header says. PNG is tried as it is and
 // with its checksums made right, else hardly any would get beyond these.
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <span>
 #include <vector>
 
+#include "tests/fuzz/require.h"
 #include "tests/support/png_writer.h"
 #include "tools/view/gltf/detail/picture_decoder.h"
+
+using animeme::test::require;
 
 namespace {
 
 using animeme::test::Bytes;
-
-void require(bool fine) {
-  if (!fine) std::abort();
-}
 
 void try_picture(std::span<const std::uint8_t> bytes) {
   constexpr std::int64_t kMost = 40'000;

@@ -4,22 +4,20 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include "tests/fuzz/require.h"
 #include "tools/speech/talking/piece_message_internal.h"
 #include "tools/speech/talking/sound_bytes.h"
+
+using animeme::test::require;
 
 namespace {
 
 using namespace animeme;
-
-void require(bool condition) {
-  if (!condition) std::abort();
-}
 
 struct Heard {
   bool fine = true;

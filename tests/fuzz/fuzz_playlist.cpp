@@ -2,12 +2,14 @@
 // name leads out of the folder.
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <string_view>
 
+#include "tests/fuzz/require.h"
 #include "tools/formats/media/detail/segments/playlist_text.h"
 #include "tools/formats/media/detail/segments/presentation.h"
+
+using animeme::test::require;
 
 namespace {
 
@@ -15,14 +17,14 @@ void check(const std::string& reference) {
   const auto name = animeme::media::from_reference(reference);
   if (!name) return;
   const std::filesystem::path path(*name);
-  if (path.empty() || path.is_absolute()) std::abort();
+  require(!path.empty() && !path.is_absolute());
   for (const auto& part : path) {
-    if (part == "..") std::abort();
+    require(part != "..");
   }
 }
 
 void check(const animeme::media::Rendition& rendition) {
-  if (rendition.segments.size() > animeme::media::kMostSegments) std::abort();
+  require(rendition.segments.size() <= animeme::media::kMostSegments);
   check(rendition.init);
   for (const std::string& segment : rendition.segments) check(segment);
 }

@@ -2,18 +2,16 @@
 // not.
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <string_view>
 
 #include "fap/head/point_list.h"
+#include "tests/fuzz/require.h"
+
+using animeme::test::require;
 
 namespace {
 
 using namespace animeme;
-
-void require(bool fine) {
-  if (!fine) std::abort();
-}
 
 std::vector<head::Piece> pieces() {
   std::vector<head::Piece> all(3);

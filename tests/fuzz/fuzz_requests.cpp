@@ -11,15 +11,14 @@
 #include <string>
 #include <string_view>
 
+#include "tests/fuzz/require.h"
 #include "tools/live/serve/server.h"
+
+using animeme::test::require;
 
 namespace {
 
 using namespace animeme;
-
-void require(bool condition) {
-  if (!condition) std::abort();
-}
 
 constexpr int kMostHeads = 3, kHealthEvery = 8;
 

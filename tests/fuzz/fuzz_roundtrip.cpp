@@ -9,14 +9,13 @@
 #include "codec/decode/decoder.h"
 #include "codec/encode/encoder.h"
 #include "codec/syntax/bits.h"
+#include "tests/fuzz/require.h"
+
+using animeme::test::require;
 
 namespace {
 
 using namespace animeme;  // NOLINT: a test
-
-void require(bool condition) {
-  if (!condition) std::abort();
-}
 
 // Numbers from the input; zeros when it is used up.
 class Source {

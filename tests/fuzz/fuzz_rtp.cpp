@@ -6,22 +6,20 @@
 // ahead of the arrival by no more than data and a few seconds.
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <span>
 #include <string_view>
 
+#include "tests/fuzz/require.h"
 #include "tools/formats/media/live/recovery.h"
 #include "tools/formats/media/rtp/rtp_receiver.h"
 #include "tools/formats/media/rtp/session_clock.h"
+
+using animeme::test::require;
 
 namespace {
 
 using namespace animeme::media;
 using Bytes = std::span<const std::uint8_t>;
-
-void require(bool good) {
-  if (!good) std::abort();
-}
 
 void read_description(Bytes text) {
   const auto session = read_sdp({reinterpret_cast<const char*>(text.data()), text.size()});

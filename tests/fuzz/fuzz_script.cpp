@@ -3,20 +3,14 @@
 // its labels from that of .pho.
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <string_view>
 
 #include "dam/script/script.h"
 #include "dam/script/timings.h"
+#include "tests/fuzz/require.h"
 #include "tools/formats/scripts/script_text.h"
 
-namespace {
-
-void require(bool condition) {
-  if (!condition) std::abort();
-}
-
-}  // namespace
+using animeme::test::require;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace animeme::dam;

@@ -2,11 +2,13 @@
 // fuzz_container.
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <span>
 
+#include "tests/fuzz/require.h"
 #include "tools/formats/media/audio.h"
 #include "tools/formats/media/container.h"
+
+using animeme::test::require;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace animeme::media;
@@ -15,6 +17,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   // Sound decoders are FFmpeg's; a short limit keeps the fuzzer on what is around them.
   constexpr int kRate = 8000, kSeconds = 2;
   const auto sound = read_audio(file, {.sample_rate = kRate, .max_seconds = kSeconds});
-  if (sound && sound->samples.size() > std::size_t(kRate * kSeconds)) std::abort();
+  require(!sound || sound->samples.size() <= std::size_t(kRate * kSeconds));
   return 0;
 }

@@ -1,19 +1,17 @@
 // Any stream that decodes can be cut anywhere and joined again: what comes out decodes, has the
 // planes that were copied, and their values.
 #include <cstdint>
-#include <cstdlib>
 #include <vector>
 
 #include "codec/decode/decoder.h"
 #include "codec/encode/splice.h"
+#include "tests/fuzz/require.h"
+
+using animeme::test::require;
 
 namespace {
 
 using namespace animeme;
-
-void require(bool condition) {
-  if (!condition) std::abort();
-}
 
 // The plane that was coded has all values of the one that was copied.
 bool has_values_of(const fba::Plane& coded, const fba::Plane& copied) {

@@ -2,9 +2,11 @@
 // pieces (used over and over), and the stream.
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 
 #include "tests/fuzz/event_trace.h"
+#include "tests/fuzz/require.h"
+
+using animeme::test::require;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace animeme;
@@ -16,6 +18,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto pieces = test::trace(bytes, [&sizes](std::size_t i) {
     return sizes.empty() ? std::size_t(1) : std::size_t(sizes[i % sizes.size()]);
   });
-  if (whole != pieces) std::abort();
+  require(whole == pieces);
   return 0;
 }

@@ -3,21 +3,19 @@
 // markup where it claims to be.
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 #include <string_view>
 
 #include "dam/script/script_text_internal.h"
+#include "tests/fuzz/require.h"
 #include "tools/speech/text/ssml.h"
 #include "tools/speech/text/utterance.h"
+
+using animeme::test::require;
 
 namespace {
 
 using namespace animeme;
-
-void require(bool condition) {
-  if (!condition) std::abort();
-}
 
 // UTF-8 without control characters, which no markup may have.
 std::string cleaned(std::string_view text) {

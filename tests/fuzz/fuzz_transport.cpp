@@ -3,15 +3,17 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <deque>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "tests/fuzz/require.h"
 #include "tools/formats/media/detail/ts/ts_input.h"
 #include "tools/formats/media/live/audio_segments.h"
 #include "tools/formats/media/rtp/session_clock.h"
+
+using animeme::test::require;
 
 namespace {
 
@@ -36,7 +38,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   (void)read_audio_init(rest);
   if (const auto packets = read_audio_segment(rest)) {
     for (const AudioPacket& packet : *packets) {
-      if (packet.bytes.empty() || packet.duration <= 0) std::abort();
+      require(!packet.bytes.empty() && packet.duration > 0);
     }
   }
   // The first byte of a piece says whose it is, where there are several senders.
@@ -58,7 +60,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       const auto* unit = std::get_if<LiveUnit>(&event);
       if (unit == nullptr) continue;
       std::optional<std::int64_t>& last = ascending[std::size_t(unit->track)];
-      if (last && unit->time <= *last) std::abort();
+      require(!last || unit->time > *last);
       last = unit->time;
     }
   }
@@ -68,10 +70,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const LiveEvent& event : events) {
     described |= std::holds_alternative<LiveInfo>(event);
     if (const auto* unit = std::get_if<LiveUnit>(&event)) {
-      if (unit->bytes.empty() || !described) std::abort();
+      require(!unit->bytes.empty() && described);
       bytes += unit->bytes.size();
     }
   }
-  if (bytes > size) std::abort();
+  require(bytes <= size);
   return 0;
 }

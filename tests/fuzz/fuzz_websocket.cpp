@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstdlib>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -24,6 +23,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tests/fuzz/require.h"
 #include "tests/fuzz/web_presentation.h"
 #include "tools/formats/media/live/audio_segments.h"
 #include "tools/formats/media/live/recorder.h"
@@ -32,15 +32,13 @@
 #include "tools/live/web/detail/values.h"
 #include "tools/live/web/web.h"
 
+using animeme::test::require;
+
 namespace {
 
 using namespace animeme;
 using namespace animeme::web;
 using Bytes = std::span<const std::uint8_t>;
-
-void require(bool good) {
-  if (!good) std::abort();
-}
 
 /// A server with a face and a sound that has sent some of both.
 class TestServer {
