@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+
+#include "fap/rate_text.h"
 
 namespace animeme::fap {
 namespace {
@@ -45,6 +48,20 @@ std::int64_t Resampler::frames(std::int64_t frames) const {
   while (double(last + 1) * step_ <= double(frames - 1)) ++last;
   while (double(last) * step_ > double(frames - 1)) --last;
   return std::max(last + 1, std::int64_t(std::llround(double(frames) / step_)));
+}
+
+Result<void> check_resampling(Rate from, Rate to, std::int64_t frames) {
+  if (!from.valid() || !to.valid()) {
+    return make_error(Code::invalid_argument, "a frame rate is above 0");
+  }
+  const double of_one = to.frames_per_second() / from.frames_per_second();
+  if (of_one <= double(kMostOfOne) && double(frames) * of_one <= double(kMostResampled)) return {};
+  return make_error(Code::out_of_range,
+                    std::to_string(frames) + " frames at " + format_rate(from) +
+                        " frames per second are too long for " + format_rate(to) +
+                        " frames per second: at most " + std::to_string(kMostResampled) +
+                        " frames are made, and " + std::to_string(kMostOfOne) +
+                        " of a single one; choose a lower rate, or correct that of the input");
 }
 
 Sequence resample(const Sequence& filled, Rate to) {

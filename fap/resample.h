@@ -7,6 +7,7 @@
 
 #include "fap/frame.h"
 #include "fap/rate.h"
+#include "fap/result.h"
 
 namespace animeme::fap {
 
@@ -39,7 +40,14 @@ class Resampler {
   std::int64_t in_ = 0, out_ = 0;
 };
 
-/// A whole clip of complete frames. Its name is kept.
+inline constexpr std::int64_t kMostResampled = 20'000'000;  ///< frames: 5 hours at 1000 a second
+inline constexpr std::int64_t kMostOfOne = 100'000;         ///< frames that one frame becomes
+
+/// Whether so many frames may be converted. Errors: invalid_argument (a rate that is not valid),
+/// out_of_range (more than kMostResampled frames, or kMostOfOne of a single one).
+Result<void> check_resampling(Rate from, Rate to, std::int64_t frames);
+
+/// A whole clip of complete frames; check_resampling() says whether that is sensible. Its name is kept.
 Sequence resample(const Sequence& filled, Rate to);
 
 }  // namespace animeme::fap

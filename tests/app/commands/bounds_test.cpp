@@ -106,6 +106,10 @@ TEST(Bounds, JustOutsideIsOutside) {
                                                        {"plot", "--faps", "3,69"},
                                                        {"speak", "--rate", "0"},
                                                        {"speak", "--rate", "-25"},
+                                                       {"edit", "--rate", "1000000"},
+                                                       {"decode", "--rate", "1001"},
+                                                       {"render", "--rate", "1/1000"},
+                                                       {"export", "--rate", "9999999999"},
                                                        {"train", "--lag", "1001"}};
   for (const std::vector<std::string>& line : lines) {
     const auto result = animeme(line);

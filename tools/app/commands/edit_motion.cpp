@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "fap/edit.h"
+#include "fap/resample.h"
 
 namespace animeme::tools {
 namespace {
@@ -191,6 +192,10 @@ Result<JoinedCuts> join(const std::vector<EditCut>& cuts, fap::Rate rate,
     }
     JoinedPiece piece{cut, &place->second, cut.source->rate, 0, 0};
     if (changes.speed != 1) piece.played = times(piece.played, changes.speed);
+    if (piece.played != rate) {
+      const auto sensible = fap::check_resampling(piece.played, rate, cut.end - cut.first);
+      if (!sensible) return sensible.error().in_file(cut.source->path);
+    }
     if (piece.extent->has_face()) piece.faces = FaceFrames::count(cut, piece.played, rate);
     if (piece.extent->has_body()) piece.bodies = BodyFrames::count(cut, piece.played, rate);
     face = face || piece.faces > 0;
@@ -237,6 +242,8 @@ Result<void> EditedMotion::Impl::open_takes() {
     auto extent = extent_of(*one.source);
     if (!extent) return extent.error();
     one.extent = *extent;
+    const auto sensible = fap::check_resampling(one.source->rate, cuts.rate, one.source->frames);
+    if (!sensible) return sensible.error().in_file(take.path);
     const bool body = take.what == EditTake::What::body;
     if (body ? !one.extent.has_body() : !one.extent.has_face()) {
       return make_error(Code::not_found, body ? "there is no body here" : "there is no face here")

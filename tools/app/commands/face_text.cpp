@@ -167,7 +167,12 @@ Result<std::int64_t> write_face_text(OutputFile& out, const std::string& path, c
   }
   const fap::Rate rate = text.resampled ? *text.resampled : text.rate;
   std::int64_t frames = exact ? extent.frames : extent.shown;
-  if (text.resampled) frames = fap::Resampler(text.rate, rate).frames(extent.shown);
+  if (text.resampled) {
+    if (auto sensible = fap::check_resampling(text.rate, rate, extent.shown); !sensible) {
+      return sensible.error();
+    }
+    frames = fap::Resampler(text.rate, rate).frames(extent.shown);
+  }
   Pen pen(out);
   pen.write(fap::text_header(rate, text.name, frames, {.whole_rate = !exact}));
   auto done = text.coded ? write_coded(text, pen) : write_shown(text, extent.mask, pen);

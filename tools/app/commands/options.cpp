@@ -75,9 +75,17 @@ std::string value_of(const Variable& variable) {
   }
 }
 
+// What is resampled has at most so many frames; nothing that shows a face is faster.
+constexpr double kLowestRate = 0.01, kHighestRate = 1000;
+
 std::string problem_of_rate(const std::string& text) {
   const Result<fap::Rate> rate = fap::parse_rate(text);
-  return rate && rate->valid() ? "" : "'" + text + "' is not a frame rate; write 25 or 29.97";
+  const bool is_rate = rate ? rate->valid() : rate.error().code == Code::out_of_range;
+  if (!is_rate) return "'" + text + "' is not a frame rate; write 25 or 29.97";
+  const double value = rate ? rate->frames_per_second() : 0;
+  if (value >= kLowestRate && value <= kHighestRate) return "";
+  return "'" + text + "' is not a frame rate from " +
+         format("%g to %g frames per second", kLowestRate, kHighestRate) + "; write 25 or 29.97";
 }
 
 std::string problem_of_picture_size(const std::string& text) {

@@ -37,6 +37,7 @@ Clip fill(const Clip& clip, bool interpolate, bool expand, bool complete, bool k
 Clip resample(const Clip& clip, const py::object& rate) {
   const fap::Rate to = rate_of(rate);
   const fap::Sequence filled = shown(clip, true);
+  value_of(fap::check_resampling(filled.rate, to, std::int64_t(filled.frames.size())));
   return clip_of(unlocked([&] { return fap::resample(filled, to); }));
 }
 

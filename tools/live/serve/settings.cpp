@@ -130,8 +130,8 @@ Result<HeadSettings> read_settings(const Json& json, HeadSettings settings) {
     const Result<fap::Rate> read = fap::parse_rate(rate);
     if (!read) {
       members.fault("\"rate\": " + read.error().message);
-    } else if (read->frames_per_second() > 100) {
-      members.fault("\"rate\" is 100 at most");
+    } else if (!(read->frames_per_second() >= 1 && read->frames_per_second() <= 100)) {
+      members.fault("\"rate\" is from 1 to 100");
     } else {
       settings.motion.rate = *read;
     }
