@@ -269,6 +269,36 @@ TEST(ArkitSequence, OppositesAreNotTogether) {
   }
 }
 
+// A face that shapes made and one that others made are the ends of a line: on the way from the one
+// to the other, of two shapes that undo each other one goes without a jump.
+TEST(ArkitSequence, OppositesGoAsOthersMakeTheFace) {
+  const std::pair<const char*, const char*> pairs[] = {{"mouthPucker", "mouthStretchLeft"},
+                                                       {"mouthFunnel", "mouthRollUpper"},
+                                                       {"mouthPressLeft", "mouthUpperUpLeft"},
+                                                       {"mouthLeft", "mouthRight"},
+                                                       {"mouthRollLower", "mouthLowerDownLeft"}};
+  for (const auto& [one, other] : pairs) {
+    const ArkitFrame weights = weights_of({{one, 0.6}, {other, 0.4}, {"jawOpen", 0.3}});
+    double last = 0.4;
+    int between = 0;
+    for (int units = 0; units < 60; ++units) {
+      Frame frame = arkit_to_fap(weights, kAllArkit);
+      int k = 0;
+      for (const std::size_t fap : {4, 5, 8, 9, 10, 11, 51, 52, 55, 56, 57, 58, 12, 13, 6, 7}) {
+        frame.value[fap] += (k % 2 == 0 ? -1 : 1) * units * (1 + (k + 1) % 3) / 3;
+        ++k;
+      }
+      const ArkitFrame found = ArkitFitter().fit(frame);
+      const double less = std::min(found[channel(one)], found[channel(other)]);
+      EXPECT_LE(std::abs(less - last), 0.2) << one << " and " << other << ", " << units;
+      between += less > 0.06 && less < 0.3 ? 1 : 0;
+      last = less;
+    }
+    EXPECT_GE(between, 2) << one << " and " << other;
+    EXPECT_LT(last, 0.01) << one << " and " << other;
+  }
+}
+
 // Nor are they on heads that visemes open, without ARKit's jaw.
 TEST(ArkitSequence, OppositesAreNotTogetherWithoutAJaw) {
   const std::pair<const char*, const char*> pairs[] = {{"mouthLeft", "mouthRight"},

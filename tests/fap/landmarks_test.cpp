@@ -261,6 +261,32 @@ TEST(Landmarks, APointOfTheSkullThatIsNotSeenLeavesTheFapsAsTheyAre) {
   }
 }
 
+// The line of the eyes comes from the pairs of points that the track has both of.
+TEST(Landmarks, ATrackWithoutOnePointOfTheEyesHasAnUprightHead) {
+  Frame frame;
+  frame.number = 1;
+  frame.set(3, 200);
+  frame.set(50, 20000);
+  for (const char* left_out :
+       {"3.7", "3.8", "3.11", "3.12", "3.1", "3.2", "3.3", "3.4", "3.5", "3.6", "3.9", "3.10"}) {
+    LandmarkTrack track = empty_track(true);
+    const auto at = std::find(track.points.begin(), track.points.end(), left_out);
+    ASSERT_NE(at, track.points.end()) << left_out;
+    track.points.erase(at);
+    Camera tilted;
+    tilted.sign = {1, -1, -1};
+    track.frames = {seen(track, {}, tilted), seen(track, frame, tilted)};
+    const auto face = landmarks_to_fap(track, {{0}, 0, false});
+    ASSERT_TRUE(face) << left_out << ": " << face.error().message;
+    ASSERT_EQ(face->clip.frames.size(), 2U) << left_out;
+    const Frame& out = face->clip.frames[1];
+    EXPECT_EQ(out.value[3], 200) << left_out;
+    EXPECT_EQ(out.value[50], 20000) << left_out;
+    EXPECT_EQ(out.value[48], 0) << left_out;
+    EXPECT_EQ(out.value[49], 0) << left_out;
+  }
+}
+
 // Eyes that look at the camera while the head turns away turn back against it.
 TEST(Landmarks, GazeIsAgainstTheHead) {
   for (const bool depth : {true, false}) {
