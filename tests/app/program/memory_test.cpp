@@ -146,5 +146,30 @@ TEST(Memory, DoesNotGrowWithTheText) {
               kMost);
 }
 
+// Half an hour of speech, whose sound alone would be 160 MB.
+TEST(Memory, DoesNotGrowWithTheSoundOfSpeech) {
+  if (test::kAddressSanitizer) GTEST_SKIP() << "the address sanitizer keeps what was freed";
+  const TempDir dir;
+  if (test::animeme({"speak", "--text", "a", "-o", dir / "a.fap"}).exit_code != 0) {
+    GTEST_SKIP() << "no voice";
+  }
+  const std::string text = dir / "long.txt";
+  std::ofstream out(text, std::ios::binary);
+  for (int i = 0; i < 400; ++i) {
+    out << "The quick brown fox jumps over the lazy dog, and then it sleeps.\n";
+  }
+  out.close();
+  constexpr long kMost = 200;
+  const std::string spoken = dir / "text.mp4", script = dir / "text.tsv";
+  EXPECT_LT(megabytes_of({"speak", "--text-file", text, "-o", spoken, "--save-script", script},
+                         dir / "out"),
+            kMost);
+  test::succeeds({"demux", spoken, "--audio", dir / "voice.wav"});
+  EXPECT_LT(megabytes_of({"speak", "--script", script, "--audio", dir / "voice.wav", "-o",
+                          dir / "script.fap"},
+                         dir / "out"),
+            kMost);
+}
+
 }  // namespace memory_test
 }  // namespace animeme

@@ -19,12 +19,12 @@ VoiceEvent word(std::int64_t sample, int position, int length) {
 }
 
 // `loud` pieces of sound in `size` samples of silence.
-std::vector<std::int16_t> sound(std::size_t size, std::initializer_list<std::pair<int, int>> loud) {
-  std::vector<std::int16_t> samples(size, 0);
+std::vector<bool> sound(std::size_t size, std::initializer_list<std::pair<int, int>> loud) {
+  std::vector<bool> silent(size, true);
   for (const auto& [first, last] : loud) {
-    for (int i = first; i < last; ++i) samples[std::size_t(i)] = 1000;
+    for (int i = first; i < last; ++i) silent[std::size_t(i)] = false;
   }
-  return samples;
+  return silent;
 }
 
 TEST(VoiceScript, ClosureBelongsToTheStop) {

@@ -522,7 +522,6 @@ Result<int> run(SpeakOptions& options) {
     const auto range = speech::parse_fit_range(options.fit);
     if (!range) return range.error();
     options.spoken.fit = *range;
-    options.spoken.fit_to_file = true;
   }
   Result<fap::Rate> rate = fap::parse_rate(options.rate);
   if (!rate) return rate.error();
@@ -534,6 +533,7 @@ Result<int> run(SpeakOptions& options) {
   }
   ProgressLine progress("listening");
   speech::SpokenOptions source = options.spoken;
+  source.sound_in_file = true;
   if (options.least && *options.least == 0) source.least_confidence = 0;
   source.heard = [&](double done) { progress.update(done); };
   Result<speech::Spoken> spoken = speech::get_spoken(source, terminal_log());
@@ -567,8 +567,6 @@ Result<int> run(SpeakOptions& options) {
     one.prosody = std::move(spoken->prosody);
     if (spoken->audio) one.prosody = voice::measure_prosody(*spoken->audio);
   }
-  // A file is read again while it is written.
-  if (!spoken->recording.empty() && spoken->audio) spoken->audio->samples = {};
   for (const std::string& output : options.outputs) {
     one.output = output;
     const bool last = &output == &options.outputs.back();

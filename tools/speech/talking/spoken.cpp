@@ -21,6 +21,89 @@ namespace animeme::speech {
 
 namespace {
 
+// Sound in a file, and its prosody.
+class SoundFile {
+ public:
+  static Result<std::unique_ptr<SoundFile>> make() {
+    auto folder = tools::ScratchFolder::make();
+    if (!folder) return folder.error();
+    auto file = std::make_unique<SoundFile>();
+    file->folder_ = std::move(*folder);
+    return file;
+  }
+  Result<void> take(std::span<const float> samples, int sample_rate) {
+    if (!wav_) {
+      auto opened = media::WavWriter::open(path(), sample_rate);
+      if (!opened) return opened.error();
+      wav_ = std::move(*opened);
+      meter_.emplace(sample_rate);
+      rate_ = sample_rate;
+    }
+    meter_->push(samples);
+    samples_ += samples.size();
+    return wav_->write(samples);
+  }
+  double seconds() const { return double(samples_) / double(std::max(1, rate_)); }
+  int sample_rate() const { return rate_; }
+  std::uint64_t bytes() const { return 2 * samples_; }
+  // Once.
+  Result<void> give_to(Spoken& spoken) {
+    if (auto done = wav_->finish(); !done) return done;
+    spoken.audio.reset();
+    spoken.recording = path();
+    spoken.file_seconds = seconds();
+    spoken.prosody = meter_->finish();
+    spoken.folder = std::move(folder_);
+    return {};
+  }
+
+ private:
+  std::string path() const { return folder_->file("voice.wav"); }
+
+  std::unique_ptr<tools::ScratchFolder> folder_;
+  std::optional<media::WavWriter> wav_;
+  std::optional<voice::ProsodyMeter> meter_;
+  std::uint64_t samples_ = 0;
+  int rate_ = 0;
+};
+
+// Short sound in memory, all of a longer one in a file.
+class SoundKeeper {
+ public:
+  // As long as the keeper lives.
+  voice::SoundSink sink() {
+    return {[this](int sample_rate) { return begin(sample_rate); },
+            [this](std::span<const float> samples) { return take(samples); }};
+  }
+  Result<void> give_to(Spoken& spoken) {
+    if (file_) return file_->give_to(spoken);
+    spoken.audio = std::move(short_);
+    return {};
+  }
+
+ private:
+  static constexpr std::size_t kMostInMemory = 60;  // seconds
+
+  Result<void> begin(int sample_rate) {
+    short_ = {sample_rate, {}};
+    file_.reset();
+    return {};
+  }
+  Result<void> take(std::span<const float> samples) {
+    if (file_) return file_->take(samples, short_.sample_rate);
+    short_.samples.insert(short_.samples.end(), samples.begin(), samples.end());
+    if (short_.samples.size() <= kMostInMemory * std::size_t(short_.sample_rate)) return {};
+    auto made = SoundFile::make();
+    if (!made) return made.error();
+    file_ = std::move(*made);
+    const std::vector<float> kept = std::exchange(short_.samples, {});
+    return file_->take(kept, short_.sample_rate);
+  }
+
+  media::Pcm short_;
+  std::unique_ptr<SoundFile> file_;
+};
+
 Result<Spoken> speak(const SpokenOptions& options, const std::string& written,
                      const tools::Log& log) {
   tools::AtStep step(tools::Step::voice);
@@ -39,12 +122,17 @@ Result<Spoken> speak(const SpokenOptions& options, const std::string& written,
   settings.language = options.language;
   settings.words_per_minute = options.words_per_minute;
   settings.pitch = options.pitch;
-  Result<voice::Speech> speech = voice::speak_text(text, settings);
+  SoundKeeper keeper;
+  Result<voice::Speech> speech =
+      voice::speak_text(text, settings, options.sound_in_file ? keeper.sink() : voice::SoundSink{});
   if (!speech) return speech.error();
   for (const std::string& warning : speech->warnings) log.warn(warning);
-  step.made(2 * speech->audio.samples.size());
   Spoken spoken{
       std::move(speech->script), std::move(speech->audio), speech->voice, TimesFrom::voice, {}, {}};
+  if (options.sound_in_file) {
+    if (auto given = keeper.give_to(spoken); !given) return given.error();
+  }
+  step.made(std::uint64_t(2 * std::llround(spoken.sound_seconds() * speech->audio.sample_rate)));
   spoken.languages = std::move(speech->languages);
   spoken.marks = std::move(speech->marks);
   spoken.moods = std::move(speech->moods);
@@ -58,6 +146,40 @@ std::string again(const std::string& path) {
   return std::filesystem::is_regular_file(path, status) ? path : std::string();
 }
 
+// Length and prosody of a recording, block by block.
+Result<void> measure_recording(const std::string& path, Spoken& spoken, const tools::Log& log) {
+  std::vector<std::string> warnings;
+  media::ReadAudioOptions reading;
+  reading.warnings = &warnings;
+  auto reader = media::AudioReader::open(path, reading);
+  if (!reader) return reader.error().in_file(path);
+  voice::ProsodyMeter meter(reader->sample_rate());
+  std::uint64_t samples = 0;
+  for (;;) {
+    const auto piece = reader->next();
+    if (!piece) return piece.error().in_file(path);
+    if (piece->empty()) break;
+    samples += piece->size();
+    meter.push(*piece);
+  }
+  for (const std::string& text : warnings) log.warn(path + ": " + text);
+  spoken.file_seconds = double(samples) / reader->sample_rate();
+  spoken.prosody = meter.finish();
+  return {};
+}
+
+// The sound of options.audio, in memory or measured.
+Result<void> add_recording(const SpokenOptions& options, Spoken& spoken, const tools::Log& log) {
+  spoken.recording = again(options.audio);
+  if (options.sound_in_file && !spoken.recording.empty()) {
+    return measure_recording(options.audio, spoken, log);
+  }
+  Result<media::Pcm> audio = read_voice(options.audio, log);
+  if (!audio) return audio.error();
+  spoken.audio = std::move(*audio);
+  return {};
+}
+
 Result<Spoken> follow_script(const SpokenOptions& options, const tools::Log& log) {
   bool words = false;
   Result<dam::Script> script =
@@ -67,13 +189,10 @@ Result<Spoken> follow_script(const SpokenOptions& options, const tools::Log& log
   Spoken spoken{
       std::move(*script), std::nullopt, {}, words ? TimesFrom::words : TimesFrom::script, {}, {}};
   if (options.audio.empty()) return spoken;
-  Result<media::Pcm> audio = read_voice(options.audio, log);
-  if (!audio) return audio.error();
-  if (auto ok = dam::check_against_audio(spoken.script, audio->duration()); !ok) {
+  if (auto added = add_recording(options, spoken, log); !added) return added.error();
+  if (auto ok = dam::check_against_audio(spoken.script, spoken.sound_seconds()); !ok) {
     return ok.error().in_file(options.script);
   }
-  spoken.audio = std::move(*audio);
-  spoken.recording = again(options.audio);
   return spoken;
 }
 
@@ -165,51 +284,6 @@ void end_silently(voice::Speech& speech) {
   speech.audio.samples.insert(speech.audio.samples.end(), tail.begin(), tail.end());
 }
 
-// The sound of cues in a file, and its prosody.
-class CueFile {
- public:
-  static Result<std::unique_ptr<CueFile>> make() {
-    auto folder = tools::ScratchFolder::make();
-    if (!folder) return folder.error();
-    auto file = std::make_unique<CueFile>();
-    file->folder_ = std::move(*folder);
-    return file;
-  }
-  Result<void> take(std::span<const float> samples, int sample_rate) {
-    if (!wav_) {
-      auto opened = media::WavWriter::open(path(), sample_rate);
-      if (!opened) return opened.error();
-      wav_ = std::move(*opened);
-      meter_.emplace(sample_rate);
-      rate_ = sample_rate;
-    }
-    meter_->push(samples);
-    samples_ += samples.size();
-    return wav_->write(samples);
-  }
-  double seconds() const { return double(samples_) / double(std::max(1, rate_)); }
-  std::uint64_t bytes() const { return 2 * samples_; }
-  // Once.
-  Result<void> give_to(Spoken& spoken) {
-    if (auto taken = take(tail_of(rate_), rate_); !taken) return taken;
-    if (auto done = wav_->finish(); !done) return done;
-    spoken.recording = path();
-    spoken.file_seconds = seconds();
-    spoken.prosody = meter_->finish();
-    spoken.folder = std::move(folder_);
-    return {};
-  }
-
- private:
-  std::string path() const { return folder_->file("voice.wav"); }
-
-  std::unique_ptr<tools::ScratchFolder> folder_;
-  std::optional<media::WavWriter> wav_;
-  std::optional<voice::ProsodyMeter> meter_;
-  std::uint64_t samples_ = 0;
-  int rate_ = 0;
-};
-
 Result<Spoken> speak_cues(const SpokenOptions& options, const tools::Log& log) {
   tools::AtStep step(tools::Step::voice);
   const auto cues = read_cues(options);
@@ -218,10 +292,10 @@ Result<Spoken> speak_cues(const SpokenOptions& options, const tools::Log& log) {
   const auto say = [&](std::size_t cue, double speed) {
     return speaker(cue, (*cues)[cue].text, speed);
   };
-  std::unique_ptr<CueFile> file;
+  std::unique_ptr<SoundFile> file;
   TakeSound take;
-  if (options.fit_to_file) {
-    auto made = CueFile::make();
+  if (options.sound_in_file) {
+    auto made = SoundFile::make();
     if (!made) return made.error();
     file = std::move(*made);
     take = [&file](std::span<const float> samples, int rate) { return file->take(samples, rate); };
@@ -235,8 +309,10 @@ Result<Spoken> speak_cues(const SpokenOptions& options, const tools::Log& log) {
   Spoken spoken{std::move(speech.script), std::nullopt, speech.voice, TimesFrom::voice, {}, {}};
   if (!file) {
     spoken.audio = std::move(speech.audio);
-  } else if (auto given = file->give_to(spoken); !given) {
-    return given.error();
+  } else {
+    const int rate = file->sample_rate();
+    if (auto ended = file->take(tail_of(rate), rate); !ended) return ended.error();
+    if (auto given = file->give_to(spoken); !given) return given.error();
   }
   spoken.languages = std::move(speech.languages);
   spoken.moods = std::move(speech.moods);
@@ -253,13 +329,11 @@ Result<Spoken> align_voice(const SpokenOptions& options, const tools::Log& log) 
   const std::string text = text_to_say(options.transcript, options.script_reading.speak_marks, log);
   Result<voice::Alignment> aligned = align_file(options.audio, text, settings, log);
   if (!aligned) return aligned.error();
-  Result<media::Pcm> audio = read_voice(options.audio);  // its damage is reported already
-  if (!audio) return audio.error();
   dam::Script script = std::exchange(aligned->script, {});
-  Spoken spoken{std::move(script),    std::move(*audio),   {},
-                TimesFrom::alignment, std::move(*aligned), {}};
+  Spoken spoken{std::move(script), std::nullopt, {}, TimesFrom::alignment, std::move(*aligned), {}};
   spoken.moods = text::find_moods(text, spoken.script);
-  spoken.recording = again(options.audio);
+  // Its damage is reported already.
+  if (auto added = add_recording(options, spoken, {}); !added) return added.error();
   return spoken;
 }
 
@@ -268,6 +342,7 @@ Result<Spoken> fit_recorded(const SpokenOptions& options, const tools::Log& log)
   const auto cues = read_cues(options);
   if (!cues) return cues.error();
   SpokenOptions aligning = options;
+  aligning.sound_in_file = false;  // it is cut and stretched
   aligning.transcript.clear();
   std::vector<std::string> texts;
   for (const Cue& cue : *cues) {
@@ -309,11 +384,10 @@ Result<Spoken> hear_voice(const SpokenOptions& options, const tools::Log& log) {
   settings.progress = options.heard;
   Result<voice::Recognition> heard = listen_to_file(options.audio, settings, log);
   if (!heard) return heard.error();
-  Result<media::Pcm> audio = read_voice(options.audio);  // its damage is reported already
-  if (!audio) return audio.error();
   dam::Script script = heard->script;
-  Spoken spoken{std::move(script), std::move(*audio), {}, TimesFrom::sound, {}, std::move(*heard)};
-  spoken.recording = again(options.audio);
+  Spoken spoken{std::move(script), std::nullopt, {}, TimesFrom::sound, {}, std::move(*heard)};
+  // Its damage is reported already.
+  if (auto added = add_recording(options, spoken, {}); !added) return added.error();
   return spoken;
 }
 
@@ -328,7 +402,7 @@ Result<voice::Alignment> align_file(const std::string& audio, const std::string&
   const tools::AtStep step(tools::Step::alignment);
   Result<media::Pcm> pcm = read_voice(audio, log, voice::kAlignRate);
   if (!pcm) return pcm.error();
-  Result<voice::Alignment> alignment = voice::align(*pcm, transcript, options);
+  Result<voice::Alignment> alignment = voice::align(std::move(*pcm), transcript, options);
   if (!alignment) return alignment.error().in_file(audio);
   for (const std::string& text : alignment->warnings) log.warn(audio + ": " + text);
   return alignment;

@@ -53,16 +53,16 @@ struct SpokenOptions {
   /// subtitles are what it says: it is aligned with them, and put into their times if it is
   /// elsewhere (fit_recording()). nullopt: the script has its sound elsewhere.
   std::optional<FitRange> fit = std::nullopt;
-  /// The sound of such a voice goes to a file (Spoken::recording), so that memory does not grow
-  /// with it.
-  bool fit_to_file = false;
+  /// Long sound is in a file (Spoken::recording) and not in memory: that of such a voice, of
+  /// espeak-ng beyond a minute, and of a recording that can be read again.
+  bool sound_in_file = false;
 };
 
 /// Speech as phones, with its sound.
 struct Spoken {
   dam::Script script;  ///< timed phones
   std::optional<media::Pcm>
-      audio;          ///< nullopt: a script without sound, or SpokenOptions::fit_to_file
+      audio;          ///< nullopt: a script without sound, or SpokenOptions::sound_in_file
   std::string voice;  ///< of synthetic speech
   TimesFrom times = TimesFrom::voice;         ///< source of the timings
   std::optional<voice::Alignment> alignment;  ///< if aligned; without its script
@@ -77,14 +77,14 @@ struct Spoken {
   /// again (a pipe).
   std::string recording;
   /// @{
-  /// With SpokenOptions::fit_to_file: length and prosody of `recording`, and the folder that it is
-  /// in, which lives as long.
+  /// With SpokenOptions::sound_in_file: length and prosody of `recording`, and the folder that one
+  /// of synthetic speech is in, which lives as long.
   double file_seconds = 0;
   std::optional<dam::Prosody> prosody;
   std::shared_ptr<tools::ScratchFolder> folder;
   /// @}
 
-  bool has_sound() const { return audio || folder; }  ///< in memory or in a file
+  bool has_sound() const { return audio || !recording.empty(); }  ///< in memory or in a file
   /// Seconds; 0: no sound.
   double sound_seconds() const { return audio ? audio->duration() : file_seconds; }
 };

@@ -41,7 +41,7 @@ Result<TimedSpeech> by_alignment(const TimedSound& sound, const ScriptInput& inp
   if (!pcm) return pcm.error();
   voice::AlignOptions settings;
   settings.language = input.language;
-  Result<voice::Alignment> alignment = voice::align(*pcm, sound.text, settings);
+  Result<voice::Alignment> alignment = voice::align(std::move(*pcm), sound.text, settings);
   if (!alignment) return alignment.error();
   for (const std::string& warning : alignment->warnings) log.warn(warning);
   TimedSpeech timed;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "dam/script/timings.h"
 #include "dam/script/words.h"
@@ -293,9 +294,10 @@ std::size_t least_phones(const std::vector<SpokenWord>& words) {
 
 }  // namespace
 
-Result<Alignment> align(const media::Pcm& audio, std::string_view transcript,
+Result<Alignment> align(media::Pcm audio, std::string_view transcript,
                         const AlignOptions& options) {
   if (auto good = check_audio(audio); !good) return good.error();
+  const double seconds = audio.duration();
   if (transcript.size() > kMostTranscript) {
     return make_error(Code::out_of_range, "a transcript of more than 1 MB; split it");
   }
@@ -314,12 +316,12 @@ Result<Alignment> align(const media::Pcm& audio, std::string_view transcript,
                       "no word of the transcript can be pronounced; is "
                       "the language right?");
   }
-  if (double(least_phones(*words)) * kMinPhoneSeconds > audio.duration()) {
+  if (double(least_phones(*words)) * kMinPhoneSeconds > seconds) {
     return make_error(Code::out_of_range, "the audio is too short for its transcript of " +
                                               std::to_string(least_phones(*words)) +
                                               " phones; does the text belong to this recording?");
   }
-  const SpeechPart part = find_speech(audio.samples);
+  const SpeechPart part = find_speech(std::move(audio.samples));
   auto recognised = recognise(part, *words, options);
   if (!recognised) return recognised.error();
   auto& segments = recognised->segments;
@@ -340,7 +342,7 @@ Result<Alignment> align(const media::Pcm& audio, std::string_view transcript,
   } else {
     result.confidence = rate_recording(*recognised, *words, is_english(options.language));
   }
-  result.words = rate_words(segments, *words, audio.duration());
+  result.words = rate_words(segments, *words, seconds);
   if (result.confidence < options.least_confidence) {
     const auto wrong = explained_by_wrong_texts(part, *words, options);
     if (!wrong) return wrong.error();
@@ -352,8 +354,8 @@ Result<Alignment> align(const media::Pcm& audio, std::string_view transcript,
                               "), yet better than other texts do; check it, or record it again "
                               "with less noise");
   }
-  add_script(segments, *words, audio.duration(), result);
-  add_insertions(segments, audio.duration(), result);
+  add_script(segments, *words, seconds, result);
+  add_insertions(segments, seconds, result);
   if (result.approximate) {
     for (AlignedWord& word : result.words) word.confidence = 0;
   } else {

@@ -83,10 +83,10 @@ inline constexpr double kDoubtful = 0.05;
 /// Maximum length of a transcript, bytes.
 inline constexpr std::size_t kMostTranscript = 1000000;
 
-/// Aligns a recording, including pauses between words. Steady noise is removed first, depending on
-/// its level (tools/speech/voice/engines.md, section 1). Words below kDoubtful are named in the
-/// warnings. Recordings of more than a minute are aligned in pieces of up to 40 s that end in
-/// pauses.
+/// Aligns a recording, including pauses between words; one that is moved here is not copied. Steady
+/// noise is removed first, depending on its level (tools/speech/voice/engines.md, section 1). Words
+/// below kDoubtful are named in the warnings. Recordings of more than a minute are aligned in
+/// pieces of up to 40 s that end in pauses.
 ///
 /// Errors: invalid_argument (audio that is not 16000 Hz - resample it first -, a transcript without
 /// words), truncated (less than 0.1 s of audio), out_of_range (more than kMaxAlignSeconds or
@@ -94,7 +94,7 @@ inline constexpr std::size_t kMostTranscript = 1000000;
 /// without pronunciation in a build without espeak-ng), unsupported (built without pocketsphinx),
 /// out_of_range also for a transcript that is rejected (least_confidence), plus those of
 /// pronounce().
-Result<Alignment> align(const media::Pcm& audio, std::string_view transcript,
+Result<Alignment> align(media::Pcm audio, std::string_view transcript,
                         const AlignOptions& options = {});
 
 }  // namespace animeme::voice

@@ -202,6 +202,7 @@ EspeakJob job_of(std::string_view request) {
 }
 
 constexpr unsigned kMostSecondsOfWork = 300;
+constexpr int kSilentLevel = 8;  // of 32768: what espeak-ng leaves between sounds
 constexpr std::int64_t kMostEventsPerSecond = 100;  // words and phones; speech has some 20
 // One takes some 3 MB, starting one as long as a few lines.
 constexpr std::size_t kMostKept = 10;
@@ -263,22 +264,18 @@ namespace {
 // a vector that grows does: a text that is too long is refused after an hour of sound, 160 MB.
 class SoundBlocks {
  public:
-  void add(const std::string& bytes) {
-    for (std::size_t at = 0; at + sizeof(std::int16_t) <= bytes.size();) {
+  void add(std::span<const std::int16_t> samples) {
+    while (!samples.empty()) {
       if (blocks_.empty() || blocks_.back().size() == kBlockSamples) {
         blocks_.emplace_back().reserve(kBlockSamples);
       }
       std::vector<std::int16_t>& block = blocks_.back();
-      const std::size_t had = block.size();
-      const std::size_t count =
-          std::min((bytes.size() - at) / sizeof(std::int16_t), kBlockSamples - had);
-      block.resize(had + count);
-      std::memcpy(block.data() + had, bytes.data() + at, count * sizeof(std::int16_t));
-      at += count * sizeof(std::int16_t);
-      size_ += count;
+      const auto piece = samples.first(std::min(samples.size(), kBlockSamples - block.size()));
+      block.insert(block.end(), piece.begin(), piece.end());
+      samples = samples.subspan(piece.size());
+      size_ += piece.size();
     }
   }
-  std::size_t size() const { return size_; }
   // All of it; then there is none.
   std::vector<std::int16_t> take() {
     std::vector<std::int16_t> all;
@@ -305,13 +302,13 @@ class SpeechIntake {
     if (tag == kFailure) failure = std::move(bytes);
     if (tag == kSampleRate && bytes.size() == sizeof(std::int32_t)) {
       std::memcpy(&result.sample_rate, bytes.data(), bytes.size());
+      if (job_.sink.begin) sunk = job_.sink.begin(result.sample_rate);
     }
     if (tag == kTextEnd) {
-      samples_ += sound_.size();
       result.speech.back().samples = sound_.take();
       result.speech.emplace_back();
     }
-    if (tag == kSamples) sound_.add(bytes);
+    if (tag == kSamples) hear(bytes);
     if (tag == kEvents && bytes.size() == sizeof(WireEvent)) {
       WireEvent wire;
       std::memcpy(&wire, bytes.data(), sizeof wire);
@@ -319,17 +316,34 @@ class SpeechIntake {
       ++events_;
     }
     const std::int64_t rate = std::max(result.sample_rate, 1);
-    too_long = samples_ + sound_.size() > std::size_t(job_.max_seconds * rate) ||
+    too_long = samples_ > std::size_t(job_.max_seconds * rate) ||
                events_ > std::size_t(kMostEventsPerSecond * (job_.max_seconds + 1));
-    return !too_long;
+    return !too_long && sunk;
   }
 
   EspeakResult result;
   std::string failure;
   bool too_long = false;
+  Result<void> sunk;  // the error of the sink
 
  private:
+  void hear(const std::string& bytes) {
+    piece_.resize(bytes.size() / sizeof(std::int16_t));
+    std::memcpy(piece_.data(), bytes.data(), piece_.size() * sizeof(std::int16_t));
+    samples_ += piece_.size();
+    std::vector<bool>& silent = result.speech.back().silent;
+    for (const std::int16_t sample : piece_) {
+      silent.push_back(std::abs(int(sample)) <= kSilentLevel);
+    }
+    if (!job_.sink.take) return sound_.add(piece_);
+    floats_.clear();
+    for (const std::int16_t sample : piece_) floats_.push_back(float(sample) / 32768.0f);
+    sunk = job_.sink.take(floats_);
+  }
+
   const EspeakJob& job_;
+  std::vector<std::int16_t> piece_;
+  std::vector<float> floats_;
   SoundBlocks sound_;  // of the text that is being spoken
   std::size_t samples_ = 0, events_ = 0;
 };
@@ -352,6 +366,7 @@ Result<void> run_job(const EspeakJob& job, SpeechIntake& hearing, bool& ended) {
                                               std::to_string(job.max_seconds) +
                                               " s of speech; speak it in parts");
   }
+  if (!hearing.sunk) return hearing.sunk.error();
   if (!hearing.failure.empty()) return make_error(Code::io, hearing.failure);
   ended = !run;
   if (!run) return run.error();

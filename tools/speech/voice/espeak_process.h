@@ -27,8 +27,9 @@ struct VoiceEvent {
 
 /// Sound and events of one text.
 struct RawSpeech {
-  std::vector<std::int16_t> samples;  ///< mono, full scale +-32768
-  std::vector<VoiceEvent> events;     ///< ascending
+  std::vector<bool> silent;                ///< one for each sample: nothing is to be heard
+  std::vector<VoiceEvent> events;          ///< ascending
+  std::vector<std::int16_t> samples = {};  ///< mono, full scale +-32768; none with EspeakJob::sink
 };
 
 /// What the child is to say.
@@ -39,6 +40,7 @@ struct EspeakJob {
   bool mnemonics = false;           ///< texts name phonemes in [[ ]]
   bool markup = false;              ///< texts are SSML; positions count its characters, too
   std::int64_t max_seconds = 3600;  ///< of sound, all texts together
+  SoundSink sink;                   ///< receives the sound; empty: RawSpeech::samples
 };
 
 /// What the child said.
@@ -47,7 +49,7 @@ struct EspeakResult {
   std::vector<RawSpeech> speech;  ///< one for each text
 };
 
-/// Errors: unsupported, io, out_of_range (more than max_seconds).
+/// Errors: unsupported, io, out_of_range (more than max_seconds), those of `sink`.
 Result<EspeakResult> run_espeak(const EspeakJob& job);
 
 /// What is installed.

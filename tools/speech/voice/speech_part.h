@@ -27,7 +27,7 @@ struct SpeechPart {
 };
 
 /// Finds the speech by levels. Samples that are no numbers count as 0. A recording of any length;
-/// an empty one has an empty part.
-SpeechPart find_speech(const std::vector<float>& recording);
+/// an empty one has an empty part. A recording that is moved here is not copied.
+SpeechPart find_speech(std::vector<float> recording);
 
 }  // namespace animeme::voice

@@ -41,15 +41,19 @@ Result<std::string> clean_text(std::string_view text) {
   return out;
 }
 
-// Silence before and after; the events move along.
+// Silence before and after; the events move along, and the samples stay as they are.
 void pad(RawSpeech& raw, std::size_t before, std::size_t after) {
-  raw.samples.insert(raw.samples.begin(), before, 0);
-  raw.samples.insert(raw.samples.end(), after, 0);
+  raw.silent.insert(raw.silent.begin(), before, true);
+  raw.silent.insert(raw.silent.end(), after, true);
   for (VoiceEvent& event : raw.events) event.sample += std::int64_t(before);
   VoiceEvent rest;
-  rest.sample = std::int64_t(raw.samples.size() - after);
+  rest.sample = std::int64_t(raw.silent.size() - after);
   rest.ipa = "_";
   raw.events.push_back(rest);
+}
+
+std::vector<float> silence(double seconds, int sample_rate) {
+  return std::vector<float>(std::size_t(std::lround(seconds * sample_rate)), 0.0f);
 }
 
 bool has_sound(const dam::Script& script) {
@@ -87,7 +91,8 @@ std::string ask_for_vowel_signs(std::string_view text, const std::string& voice,
 
 }  // namespace
 
-Result<Speech> speak_text(std::string_view text, const VoiceOptions& options) {
+Result<Speech> speak_text(std::string_view text, const VoiceOptions& options,
+                          const SoundSink& sink) {
   const auto cleaned = clean_text(text);
   auto speakers = find_speakers(options, cleaned ? text::code_points(*cleaned) : std::u32string());
   if (!speakers) return speakers.error();
@@ -98,13 +103,25 @@ Result<Speech> speak_text(std::string_view text, const VoiceOptions& options) {
   speech.voice = utterance->speakers.front().name;
   speech.warnings = std::move(utterance->warnings);
   EspeakJob job = job_of(*utterance, options);
+  const bool sinks = sink.begin && sink.take;
+  if (sinks) {
+    job.sink.take = sink.take;
+    job.sink.begin = [&](int sample_rate) -> Result<void> {
+      if (auto begun = sink.begin(sample_rate); !begun) return begun;
+      return sink.take(silence(options.lead_silence, sample_rate));
+    };
+  }
   auto spoken = run_voice(job);
   if (!spoken) return spoken.error();
   const int rate = spoken->sample_rate;
   RawSpeech& raw = spoken->speech.front();
   if (job.markup) correct_ipa(raw, *utterance);
-  pad(raw, std::size_t(std::lround(options.lead_silence * rate)),
-      std::size_t(std::lround(options.tail_silence * rate)));
+  const std::vector<float> before = silence(options.lead_silence, rate);
+  const std::vector<float> after = silence(options.tail_silence, rate);
+  if (sinks) {
+    if (auto taken = sink.take(after); !taken) return taken.error();
+  }
+  pad(raw, before.size(), after.size());
   speech.script = make_voice_script(raw, rate, *utterance);
   if (!has_sound(speech.script)) return nothing_to_say(speech.voice);
   speech.languages = find_languages(raw, rate, *utterance);
@@ -119,10 +136,12 @@ Result<Speech> speak_text(std::string_view text, const VoiceOptions& options) {
   if (vowels.empty()) vowels = warn_of_missing_vowels(speech.script, speech.voice);
   if (!vowels.empty()) speech.warnings.push_back(std::move(vowels));
   speech.audio.sample_rate = rate;
-  speech.audio.samples.reserve(raw.samples.size());
-  for (const std::int16_t sample : raw.samples) {
-    speech.audio.samples.push_back(float(sample) / 32768.0f);
-  }
+  if (sinks) return speech;
+  std::vector<float>& samples = speech.audio.samples;
+  samples.reserve(raw.silent.size());
+  samples = before;
+  for (const std::int16_t sample : raw.samples) samples.push_back(float(sample) / 32768.0f);
+  samples.insert(samples.end(), after.begin(), after.end());
   return speech;
 }
 

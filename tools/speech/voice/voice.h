@@ -12,6 +12,8 @@
 /// cannot take the program down. Source: tools/speech/voice/engines.md, section 2.
 #pragma once
 
+#include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -61,10 +63,17 @@ struct SpeechMark {
   std::string name;  ///< as in the document
 };
 
+/// Receives sound while it is made. An error of either function ends the work.
+struct SoundSink {
+  /// The sound begins; what came before it is void, as another process speaks the text again.
+  std::function<Result<void>(int sample_rate)> begin;
+  std::function<Result<void>(std::span<const float> samples)> take;  ///< the next samples, +-1
+};
+
 /// Result of speak_text(). The script begins at 0 and ends with the audio; its first and last
 /// phones are SIL (unless that silence is 0). Phone::word is set.
 struct Speech {
-  media::Pcm audio;    ///< 22050 Hz with the voices of espeak-ng 1.51
+  media::Pcm audio;    ///< 22050 Hz with the voices of espeak-ng 1.51; no samples with a SoundSink
   dam::Script script;  ///< phones and words of the sound
   std::string voice;   ///< name of the voice, or of the first one: "English (America)"
   std::vector<SpokenLanguage> languages;  ///< ascending; at least one
@@ -87,7 +96,11 @@ struct Speech {
 /// with suggestions; no voices at data_path; no Japanese dictionary), syntax with line and column
 /// (SSML that is not well formed), unsupported (built without espeak-ng, or SSML without expat), io
 /// (the child process could not be started, or espeak-ng failed, e.g. without its data).
-Result<Speech> speak_text(std::string_view text, const VoiceOptions& options = {});
+///
+/// With both functions of `sink` the sound goes there, and memory grows with the text alone: half
+/// an hour of sound is 160 MB in Speech::audio.
+Result<Speech> speak_text(std::string_view text, const VoiceOptions& options = {},
+                          const SoundSink& sink = {});
 
 /// An installed voice.
 struct VoiceInfo {

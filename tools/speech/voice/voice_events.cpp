@@ -17,7 +17,6 @@ namespace {
 
 using dam::IpaPhone;
 
-constexpr int kSilentLevel = 8;            // of 32768: what espeak-ng leaves between sounds
 constexpr double kMaxClosure = 0.2;        // seconds of silence before a burst that are closure
 constexpr double kMaxFirstClosure = 0.08;  // the same after a pause: the rest is rest
 constexpr double kMinPhone = 0.01;         // seconds that the phone before keeps
@@ -29,13 +28,10 @@ struct VoicedSegment {
   std::size_t word = kNoWritten;
 };
 
-bool is_silent(std::int16_t sample) { return std::abs(int(sample)) <= kSilentLevel; }
-
 // A pause comes as an empty name, just like a mark without a sound of its own; the ear decides.
-bool is_mostly_silent(const std::vector<std::int16_t>& samples, std::int64_t start,
-                      std::int64_t end) {
-  const auto first = samples.begin() + start, last = samples.begin() + end;
-  return 2 * std::count_if(first, last, is_silent) >= last - first;
+bool is_mostly_silent(const std::vector<bool>& silent, std::int64_t start, std::int64_t end) {
+  const auto first = silent.begin() + start, last = silent.begin() + end;
+  return 2 * std::count(first, last, true) >= last - first;
 }
 
 // espeak-ng cuts names at 8 bytes, maybe inside a character.
@@ -59,8 +55,8 @@ void add_segment(std::vector<VoicedSegment>& segments, const RawSpeech& raw, Voi
   const bool pause = ipa.starts_with('_');
   const bool language_switch = ipa.starts_with('(');
   if (!pause && !language_switch) segment.labels = labels_of(ipa);
-  const bool silent = pause || (segment.labels.empty() &&
-                                is_mostly_silent(raw.samples, segment.start, segment.end));
+  const bool silent =
+      pause || (segment.labels.empty() && is_mostly_silent(raw.silent, segment.start, segment.end));
   if (silent) segment.word = kNoWritten;
   if (segment.labels.empty() && !silent && !segments.empty()) {
     segments.back().end = segment.end;  // a mark: the sound before it goes on
@@ -70,7 +66,7 @@ void add_segment(std::vector<VoicedSegment>& segments, const RawSpeech& raw, Voi
 }
 
 std::vector<VoicedSegment> cut(const RawSpeech& raw, const WrittenWords& written) {
-  const auto size = std::int64_t(raw.samples.size());
+  const auto size = std::int64_t(raw.silent.size());
   std::vector<VoicedSegment> segments;
   VoicedSegment current;
   std::string ipa = "_";
@@ -103,7 +99,7 @@ void move_stops_to_closure(std::vector<VoicedSegment>& segments, const RawSpeech
     const std::int64_t floor = std::max(segments[i].start - std::int64_t(reach * rate),
                                         before.start + std::int64_t(kMinPhone * rate));
     std::int64_t start = segments[i].start;
-    while (start > floor && is_silent(raw.samples[std::size_t(start - 1)])) --start;
+    while (start > floor && raw.silent[std::size_t(start - 1)]) --start;
     segments[i].start = before.end = start;
   }
 }

@@ -115,7 +115,7 @@ std::vector<SpokenLanguage> find_languages(const RawSpeech& raw, int sample_rate
     part.language.text = text_of(part.place, utterance);
     out.push_back(std::move(part.language));
   }
-  if (!out.empty()) out.back().end = double(raw.samples.size()) / rate;
+  if (!out.empty()) out.back().end = double(raw.silent.size()) / rate;
   return out;
 }
 
