@@ -23,6 +23,13 @@ class RoomSound(io.AudioOutput):
         self.given = self.played = 0  # samples of the segment
         self.all_given = 0
         self.over = False
+        self.paused = 0  # how often it was paused, less how often it went on
+
+    def pause(self):
+        self.paused += 1
+
+    def resume(self):
+        self.paused -= 1
 
     async def capture_frame(self, frame):
         await super().capture_frame(frame)

@@ -2,7 +2,7 @@
 // base64]; by the npm package, if it is built, else by a decoder that remembers bytes.
 import assert from 'node:assert';
 import {existsSync, readFileSync} from 'node:fs';
-import {FaceReceiver} from '../../../tools/bindings/agents/face_receiver.js';
+import {FaceReceiver} from '../../../tools/bindings/npm/src/face_receiver.js';
 
 const [file, folder] = process.argv.slice(2);
 let kit = await import('../../../tools/bindings/npm/src/track.js');

@@ -236,6 +236,30 @@ export class Track {
   forget(time: number): void;
 }
 
+/** What FaceReceiver is made with. */
+export interface FaceReceiverOptions {
+  /** A UnitDecoder for a configuration. */
+  decoder: (config: Uint8Array) => UnitDecoder;
+  track: Track;
+  /** Seconds from a message to the sound that was sent with it; default: 0. */
+  delay?: () => number;
+  /** Seconds; default: those of performance.now(). */
+  wall?: () => number;
+}
+
+/** The face of a voice agent in a call (tools/bindings/agents), from the messages of its channel. */
+export class FaceReceiver {
+  constructor(options: FaceReceiverOptions);
+  /** A message; those of other topics are left alone. */
+  take(topic: string, bytes: Uint8Array): void;
+  /** The data of a message that is JSON, as Pipecat's clients hand it to onServerMessage. */
+  takeMessage(data: {topic?: string; base64?: string}): void;
+  /** The face to be shown now. The mouth is closed while the sound is paused. */
+  now(): Frame | null;
+  /** Seconds on the clock of the sound. */
+  time(): number;
+}
+
 /** The face of an mp4 in memory, as a receiver shows it. */
 export function decodeMp4(bytes: Uint8Array | ArrayBuffer, options?: DecoderOptions): Track;
 

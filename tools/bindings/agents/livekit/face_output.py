@@ -14,7 +14,6 @@ from __future__ import annotations
 import asyncio
 import json
 import logging
-import time
 from collections import deque
 from typing import Optional
 
@@ -22,14 +21,12 @@ import numpy as np
 from livekit import rtc
 from livekit.agents.voice import io
 
-from face_track import FaceTrack, Unit, mark_missed
+from face_track import CLOCK_TOPIC, TOPIC, FaceHistory, FaceTrack, Unit, mark_missed
 
 logger = logging.getLogger("animeme.face")
 
-TOPIC = "animeme.face"  # binary: the messages of /face
-CLOCK_TOPIC = "animeme.clock"  # JSON: where on the clock of the face the sound is
-PLANE = bytes([0, 0, 1, 0xBB])  # a unit begins with it, but for the first of a stream
 JOIN = "join"  # no topic: who has joined is to be sent what is said now
+PAUSE = "pause"  # no topic: a message of the clock that waits for no other
 
 
 class FaceOutput(io.AudioOutput):
@@ -45,8 +42,7 @@ class FaceOutput(io.AudioOutput):
     def __init__(self, next_in_chain: io.AudioOutput, room: rtc.Room, *,
         destinations: tuple[str, ...] = (),
                  waiting: int = 256, **options) -> None:
-        # Without pauses: a page whose clock runs on would move a silent mouth.
-        super().__init__(label="AnimemeFace", capabilities=io.AudioOutputCapabilities(pause=False),
+        super().__init__(label="AnimemeFace", capabilities=io.AudioOutputCapabilities(pause=True),
                          next_in_chain=next_in_chain, sample_rate=next_in_chain.sample_rate)
         self._room = room
         self._destinations = list(destinations)
@@ -66,11 +62,9 @@ class FaceOutput(io.AudioOutput):
         self._uncut = False  # an interruption that the face does not know yet
         self._missed = False  # messages that were not sent
         self._failed = False
-        # Of the segment, as it was sent, for those who join in the middle of it: what begins it,
-        # units by their times, and when the sound of which sample began to play.
-        self._face_begun: list[tuple] = []
-        self._face_sent: list[tuple] = []  # (time, intra, message)
-        self._face_started: Optional[tuple[float, int]] = None
+        self._history = FaceHistory()
+        self._pause_wanted = False  # between pause() and what ends it
+        self._pause_at: Optional[int] = None  # the sample that was heard then
         room.on("participant_connected", self._on_participant)
 
     async def capture_frame(self, frame: rtc.AudioFrame) -> None:
@@ -107,11 +101,29 @@ class FaceOutput(io.AudioOutput):
         """What was not sent yet is dropped; how much was heard comes with
         on_playback_finished()."""
         self._generation += 1
+        self._pause_wanted = False
         self._capturing, self._uncut = False, bool(self._tasks)
         self._work = deque(job for job in self._work if job[1] == "cut")
         self._out.clear()
         self._wake()
         self.next_in_chain.clear_buffer()
+
+    def pause(self) -> None:
+        """The sound stops, as somebody may have begun to speak: pages close the mouth and hold the
+        clock. resume() goes on, clear_buffer() ends it."""
+        self.next_in_chain.pause()
+        if not self._pause_wanted:
+            self._pause_wanted = True
+            track = self._track
+            self._pause_at = None if track is None else self._history.heard(track.sample_rate)
+            self._hold()
+
+    def resume(self) -> None:
+        """Nobody has interrupted: the sound goes on where it stopped."""
+        self.next_in_chain.resume()
+        if self._pause_wanted:
+            self._pause_wanted = False
+            self._hold()
 
     def on_playback_started(self, *, created_at: float) -> None:
         super().on_playback_started(created_at=created_at)
@@ -145,6 +157,12 @@ class FaceOutput(io.AudioOutput):
     def _do(self, what: str, value) -> None:
         if self._tasks:
             self._work.append((self._generation, what, value))
+            self._wake()
+
+    def _hold(self) -> None:
+        """Tells pages to hold their clock or to let it go, as is right when it is sent."""
+        if self._track is not None and not (self._out and self._out[0][0] == PAUSE):
+            self._out.appendleft((PAUSE, True, b""))
             self._wake()
 
     def _wake(self) -> None:
@@ -221,8 +239,6 @@ class FaceOutput(io.AudioOutput):
     async def _hear(self, segment: int, frame: rtc.AudioFrame) -> list[tuple]:
         if self._track is None:
             self._track = FaceTrack(frame.sample_rate, **self._options)
-        if frame.sample_rate != self._track.sample_rate:
-            raise ValueError("the sample rate of the sound has changed; give the next output one")
         samples = np.frombuffer(bytes(frame.data), np.int16)
         if frame.num_channels > 1:
             samples = samples.reshape(-1, frame.num_channels).mean(axis=1).astype(np.int16)
@@ -232,7 +248,8 @@ class FaceOutput(io.AudioOutput):
             begin = [(TOPIC, True, self._track.hello()), self._clock(begins=self._track.begins)]
             if self._played == segment:
                 begin.append(self._clock(playing=self._track.begins))
-        return begin + self._messages(await asyncio.to_thread(self._track.push, samples))
+        return begin + self._messages(await asyncio.to_thread(self._track.push, samples,
+                                                              frame.sample_rate))
 
     @staticmethod
     def _messages(units: list[Unit]) -> list[tuple]:
@@ -243,47 +260,18 @@ class FaceOutput(io.AudioOutput):
             await self._publish(*await self._take("_out"))
             await self._done()
 
-    def _keep(self, topic: str, intra: bool, message: bytes) -> None:
-        """What was sent, for those who join."""
-        if topic == CLOCK_TOPIC:
-            told = json.loads(message)
-            if "playing" in told:
-                self._face_started = (time.monotonic(), told["playing"])
-            elif "cut" in told:
-                self._face_begun = [(topic, message)]
-            else:
-                self._face_begun, self._face_sent, self._face_started = [(topic, message)], [], None
-        elif message[0] != 0x41:
-            at = int.from_bytes(message[:8], "big")
-            while self._face_sent and self._face_sent[-1][0] >= at:
-                self._face_sent.pop()
-            self._face_sent.append((at, intra, message))
-
-    def _for_newcomer(self) -> list[tuple]:
-        """The segment from the face on that is to be seen now: units are sent long before they are
-        due."""
-        track, shown = self._track, 0
-        messages = [(TOPIC, track.hello()), *self._face_begun]
-        if self._face_started:
-            began, sample = self._face_started
-            shown = sample + round((time.monotonic() - began) * track.sample_rate)
-            messages.append((CLOCK_TOPIC, self._clock(playing=shown)[2]))
-        first = 0
-        for number, (at, intra, _) in enumerate(self._face_sent):
-            if intra and (at <= shown or number == 0):
-                first = number
-        units = [message for _, _, message in self._face_sent[first:]]
-        # in the middle of a stream: with what that began with
-        if units and units[0][13:].startswith(PLANE):
-            for _, _, message in reversed(self._face_sent[:first]):
-                if not message[13:].startswith(PLANE):
-                    head = message[13:message.index(PLANE, 13)]
-                    units[0] = units[0][:13] + head + units[0][13:]
-                    break
-        return messages + [(TOPIC, message) for message in units]
+    async def _publish_pause(self) -> None:
+        """One of a segment that does not play yet follows its first `playing`."""
+        heard = self._history.heard(self._track.sample_rate)
+        if heard is None or self._history.paused == self._pause_wanted:
+            return
+        what = "paused" if self._pause_wanted else "playing"
+        if self._pause_wanted and self._pause_at is not None:
+            heard = self._pause_at
+        await self._publish(*self._clock(**{what: heard}))
 
     async def _greet(self, identity: str) -> None:
-        for topic, message in self._for_newcomer():
+        for topic, message in self._history.messages(self._track):
             await self._room.local_participant.publish_data(message, reliable=True, topic=topic,
                                                             destination_identities=[identity])
 
@@ -294,6 +282,8 @@ class FaceOutput(io.AudioOutput):
             except Exception as problem:
                 logger.debug("who has joined was not greeted: %s", problem)
             return
+        if topic == PAUSE:
+            return await self._publish_pause()
         unit = topic == TOPIC and message[0] != 0x41
         if unit and self._missed:
             if not intra:
@@ -302,7 +292,9 @@ class FaceOutput(io.AudioOutput):
         try:
             await self._room.local_participant.publish_data(message, reliable=True, topic=topic,
                                                             destination_identities=self._destinations)
-            self._keep(topic, intra, message)
+            self._history.keep(topic, intra, message)
+            if topic == CLOCK_TOPIC and self._pause_wanted and b'"playing"' in message:
+                await self._publish_pause()
         # not connected just now: on with the next plane where one can begin
         except Exception as problem:
             logger.debug("a message of the face was not sent: %s", problem)

@@ -8,6 +8,7 @@ export {arkit, ArkitFitter, arkitNames, fapNames, fromArkit, VisemeFitter, visem
 export {Speaker, Speech} from './speaker.js';
 export {Mp4Reader} from './mp4.js';
 export {decodeMp4, Track, UnitDecoder} from './track.js';
+export {FaceReceiver} from './face_receiver.js';
 export {talkingHead} from './talkinghead.js';
 
 /**

@@ -42,6 +42,8 @@ class AudioFrame:
 
 
 class LocalParticipant:
+    identity = "agent"
+
     def __init__(self):
         self.published = []  # (topic, bytes), to all
         self.sent_to = defaultdict(list)  # the same, to one alone
@@ -65,3 +67,4 @@ class Room(EventEmitter):
     def __init__(self):
         super().__init__()
         self.local_participant = LocalParticipant()
+        self.removed = []  # identities of participants that were removed

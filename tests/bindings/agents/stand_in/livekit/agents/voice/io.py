@@ -85,6 +85,14 @@ class AudioOutput(ABC, rtc.EventEmitter[str]):
     @abstractmethod
     def clear_buffer(self): ...
 
+    def pause(self):
+        if self._next:
+            self._next.pause()
+
+    def resume(self):
+        if self._next:
+            self._next.resume()
+
     def on_attached(self):
         if self._next:
             self._next.on_attached()
