@@ -7,6 +7,8 @@
 #include <span>
 
 #include "tests/formats/media/media_support.h"
+#include "tests/support/folders.h"
+#include "tools/formats/media/audio.h"
 
 namespace animeme::media {
 namespace encoded_audio_test {
@@ -221,6 +223,41 @@ TEST(EncodedAudio, RefusalsNameTheReason) {
   EncodedAudio junk = *coded;
   for (AudioPacket& packet : junk.packets) packet.bytes.assign(9, 0xFF);
   refused(decode_audio(junk), Code::syntax, "can be decoded");
+}
+
+// A share of the packets of a voice that have the one before them again: RFC 6716, section 4.2.4,
+// behind the table of contents of section 3.1.
+double share_with_fec(const EncodedAudio& sound) {
+  std::size_t with = 0;
+  for (const AudioPacket& packet : sound.packets) {
+    const unsigned toc = packet.bytes.at(0);
+    const bool one_frame = (toc & 3) == 0, has_silk = (toc >> 3) < 16, of_20_ms = toc >> 3 & 1;
+    EXPECT_TRUE(one_frame);
+    if (has_silk && of_20_ms && packet.bytes.size() > 1) with += packet.bytes[1] >> 6 & 1;
+  }
+  return double(with) / double(sound.packets.size());
+}
+
+TEST(EncodedAudio, OpusRepeatsWhatIsExpectedToBeLost) {
+  const auto voice =
+      read_audio(std::string(test::kSourceFolder) + "/tools/release/samples/voice.wav");
+  ASSERT_TRUE(voice);
+  AudioSettings settings{AudioCodec::opus, 48000, 5};
+  const auto plain = encode_audio(*voice, settings);
+  settings.expected_loss = 10;
+  const auto repeated = encode_audio(*voice, settings);
+  ASSERT_TRUE(plain && repeated);
+  EXPECT_EQ(share_with_fec(*plain), 0);
+  EXPECT_GT(share_with_fec(*repeated), 0.5);
+  EXPECT_EQ(repeated->format.priming, plain->format.priming) << "sound and face stay together";
+  std::size_t plain_bytes = 0, repeated_bytes = 0;
+  for (const AudioPacket& packet : plain->packets) plain_bytes += packet.bytes.size();
+  for (const AudioPacket& packet : repeated->packets) repeated_bytes += packet.bytes.size();
+  EXPECT_NEAR(double(repeated_bytes), double(plain_bytes), 0.1 * double(plain_bytes));
+  for (const int wrong : {-1, 51}) {
+    settings.expected_loss = wrong;
+    EXPECT_EQ(encode_audio(*voice, settings).error().code, Code::invalid_argument);
+  }
 }
 
 }  // namespace encoded_audio_test

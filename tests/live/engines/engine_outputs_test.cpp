@@ -5,6 +5,7 @@
 #include <array>
 #include <ctime>
 #include <map>
+#include <set>
 
 #include "tests/live/engines/engines_support.h"
 
@@ -261,6 +262,40 @@ TEST_F(EngineOutputs, ParametersMayHaveAPrefixOfTheirAvatar) {
   EXPECT_FALSE(blind[0]["values"].contains("EyesClosedAmount"));
 }
 
+TEST_F(EngineOutputs, AvatarsWithoutRoomForFloatsGetBits) {
+  const MovingFace face = moving_face(4);
+  const auto frames = read_by_others("osc", sent_to("osc://192.0.2.1?binary=3", face));
+  std::map<std::string, double> now;
+  std::set<int> seen;
+  bool left = false, right = false;
+  for (const auto& frame : frames) {
+    for (const auto& [name, value] : frame["values"].items()) {
+      if (value.is_number() || value.is_boolean()) {
+        now[name] = value.is_boolean() ? double(bool(value)) : double(value);
+      }
+    }
+    for (const char* name : {"v2/JawOpen", "v2/MouthX", "v2/EyeLeftX", "v2/LipPuckerUpperLeft"}) {
+      const std::string begin = name;
+      const double value = now.at(begin);
+      const int number =
+          int(now.at(begin + "1") + 2 * now.at(begin + "2") + 4 * now.at(begin + "4"));
+      const double exact = std::abs(value) > 0.99999 ? 7 : std::abs(value) * 7;
+      ASSERT_GE(exact, number - 1e-4) << name;
+      ASSERT_LT(exact, number + 1 + 1e-4) << name;
+      if (begin == "v2/JawOpen") seen.insert(number);
+    }
+    ASSERT_EQ(now.at("v2/EyeLeftXNegative") != 0, now.at("v2/EyeLeftX") < 0);
+    (now.at("v2/EyeLeftX") < 0 ? left : right) = true;
+  }
+  EXPECT_GT(seen.size(), 3u);
+  EXPECT_TRUE(left && right);
+  EXPECT_FALSE(now.contains("v2/JawOpenNegative")) << "it cannot be";
+  EXPECT_FALSE(now.contains("v2/JawOpen8"));
+  EXPECT_FALSE(now.contains("v2/Head/Yaw1"));
+  const auto plain = read_by_others("osc", sent_to("osc://192.0.2.1", moving_face(0.2)));
+  EXPECT_FALSE(plain[0]["values"].contains("v2/JawOpen1"));
+}
+
 TEST_F(EngineOutputs, WhatDoesNotChangeIsSentOnceASecond) {
   MovingFace face = moving_face(3);
   const auto sent = sent_to("osc://192.0.2.1", face);
@@ -303,6 +338,9 @@ TEST_F(EngineOutputs, AddressesThatAreWrongSayWhatThereIs) {
   EXPECT_THAT(message("vmc://h?bones=yes"), HasSubstr("on or off"));
   EXPECT_THAT(message("osc://h?gaze=1"), HasSubstr("on or off"));
   EXPECT_THAT(message("osc://h?prefix="), HasSubstr("1 to 64"));
+  for (const char* wrong : {"0", "9", "", "12", "x"}) {
+    EXPECT_THAT(message(std::string("osc://h?binary=") + wrong), HasSubstr("1 to 8"));
+  }
   EXPECT_THAT(message("osc://:9000"), HasSubstr("name the machine"));
   EXPECT_THAT(message("osc://h:0"), HasSubstr("port 0"));
   EXPECT_THAT(message("osc://h:70000"), HasSubstr("scheme://host:port"));

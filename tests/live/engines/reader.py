@@ -92,6 +92,8 @@ def osc_messages(data):
         if kind == "s":
             text, at = osc_text(data, at)
             values.append(text)
+        elif kind in "TF":
+            values.append(kind == "T")
         else:
             must(kind in "if", "type " + kind)
             values.append(struct.unpack_from(">" + kind, data, at)[0])
@@ -138,7 +140,8 @@ class Parameters:
     def take(self, data):
         must(len(data) <= 1472, "a datagram of %d bytes" % len(data))
         for address, values in osc_messages(data):
-            must(all(isinstance(value, float) for value in values), "a parameter is a float")
+            must(all(isinstance(value, (float, bool)) for value in values),
+                 "a parameter is a float or a flag")
             for name in ("/avatar/parameters/", "/tracking/eye/"):
                 if address.startswith(name):
                     self.values[address[len(name):]] = values[0] if len(values) == 1 else values

@@ -135,10 +135,10 @@ class Socket:
 class Server:
     """`animeme serve` at a free port."""
 
-    def __init__(self, program, *arguments, env=None, port=0):
+    def __init__(self, program, *arguments, env=None, port=0, stderr=None):
         self.process = subprocess.Popen(
             [program, "serve", "--listen", f"http://127.0.0.1:{port}", "--json", "--quiet",
-             *arguments], stdout=subprocess.PIPE, text=True, env={**os.environ, **(env or {})})
+             *arguments], stdout=subprocess.PIPE, stderr=stderr, text=True, env={**os.environ, **(env or {})})
         line = self.process.stdout.readline()
         self.url = json.loads(line)["address"].rstrip("/") if line else ""
         self.port = int(self.url.rsplit(":", 1)[1]) if line else 0

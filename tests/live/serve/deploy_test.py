@@ -184,6 +184,65 @@ class Files(unittest.TestCase):
                 timeout=60)
             self.assertEqual(done.returncode, 3)
 
+    def test_sighup_reads_the_settings_again(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path, token, heads = (os.path.join(folder, name)
+                                  for name in ("serve.conf", "token", "heads.json"))
+
+            def write(file, text):
+                with open(file, "w") as out:
+                    out.write(text)
+
+            def right(secret):
+                return {"Authorization": "Bearer " + secret}
+            write(token, "one")
+            write(heads, '{"heads": [{"name": "ann", "pitch": 40}]}')
+            write(path, f"max-heads = 2\ntoken-file = {token}\nheads = {heads}\nlog = json\n")
+            log = os.path.join(folder, "log")
+            with open(log, "w") as errors:
+                server = Server(PROGRAM, "--settings", path, stderr=errors)
+            self.addCleanup(server.end)
+
+            def logged(what):
+                with open(log) as file:
+                    return sum(f'"what":"{what}"' in line.replace(" ", "") for line in file)
+
+            def reload(what):
+                before = logged(what)
+                server.process.send_signal(signal.SIGHUP)
+                self.assertTrue(until(lambda: logged(what) > before))
+            viewer = Socket(server.port, "/heads/ann/faps")
+            self.assertEqual(viewer.status, 101)
+            self.assertEqual(server.ask("/heads/b", "PUT", headers=right("one"))[0], 201)
+            self.assertEqual(server.ask("/heads/c", "PUT", headers=right("one"))[0], 429)
+            # What is wrong changes nothing.
+            for text in ("max-heads = 0\n", "max-head = 9\n", "log = xml\n",
+                         f"heads = {path}\n", f"token-file = {path}x\n", "viewers = token\n"):
+                write(path, text)
+                reload("refused")
+                self.assertEqual(server.ask("/heads/c", "PUT", headers=right("one"))[0], 429, text)
+            # Another token, more heads, a voice, and defaults of new heads.
+            write(token, "two")
+            write(heads, '{"defaults": {"pitch": 70}, "heads": [{"name": "ann", "pitch": 90},'
+                         ' {"name": "dora"}]}')
+            write(path, f"max-heads = 9\ntoken-file = {token}\nheads = {heads}\nlog = json\n"
+                        "tts = mine=espeak-ng -w {wav} {text}\n")
+            reload("readagain")
+            self.assertEqual(server.ask("/heads", headers=right("one"))[0], 401)
+            self.assertEqual(server.ask("/heads/c", "PUT", headers=right("two"))[0], 201)
+            self.assertEqual(server.ask("/heads/e", "PUT", '{"tts": "mine"}',
+                                        headers=right("two"))[0], 201)
+            pitches = {name: json.loads(server.ask("/heads/" + name, headers=right("two"))[1])
+                       ["settings"]["pitch"] for name in ("ann", "b", "c", "dora")}
+            self.assertEqual(pitches, {"ann": 40, "b": 50, "c": 70, "dora": 70})
+            # Viewers of heads that there were notice nothing.
+            for _ in range(30):
+                self.assertIsNotNone(viewer.next())
+            self.assertEqual(server.end()[0], 0)
+        # Without files to read again it ends a program, as the end of a terminal does.
+        server = Server(PROGRAM)
+        self.assertEqual(server.end(signal.SIGHUP)[0], -signal.SIGHUP)
+
     def test_the_example_of_settings_is_right(self):
         with tempfile.TemporaryDirectory() as folder:
             with open(os.path.join(FOLDER, "serve.conf")) as file:
@@ -202,6 +261,7 @@ class Files(unittest.TestCase):
             with open(os.path.join(FOLDER, "animeme-serve.service")) as file:
                 text = file.read()
             self.assertIn("ExecStart=/usr/bin/animeme serve", text)
+            self.assertIn("ExecReload=/bin/kill -HUP $MAINPID", text)
             path = os.path.join(folder, "animeme-serve.service")
             with open(path, "w") as file:
                 file.write(text.replace("/usr/bin/animeme",

@@ -20,7 +20,7 @@ TEST(HeadSettings, EveryMemberIsReadAndWritten) {
       R"({"model":"m","lang":"de+f2","speed":150,"pitch":70,"tts":"t","voice_rate":24000,"head":"h","rate":"29.97","style":1.2,)"
       R"("sharpness":2.0,"articulate":0.5,"idle_motion":false,"tongue":false,"over":"take","keep":"lips=0.5","mood":"anger:0.5","seed":9,)"
       R"("liveliness":0.5,"still":"gaze,brows","look":"20,-5","intra_seconds":2.0,"encoder_delay":1.5,"quant":3,)"
-      R"("sound":false,"audio_codec":"aac","audio_bitrate":64000,"audio_effort":10})";
+      R"("sound":false,"audio_codec":"aac","audio_bitrate":64000,"audio_effort":10,"audio_fec":20})";
   const Result<HeadSettings> settings = read(text);
   ASSERT_TRUE(settings) << settings.error().message;
   EXPECT_EQ(serve::settings_json(*settings), *Json::parse(text));
@@ -65,6 +65,7 @@ TEST(HeadSettings, FaultsNameTheMember) {
       {R"({"look": "0,90"})", "\"look\": eyes and head reach"},
       {R"({"seed": 1.5})", "\"seed\""},
       {R"({"audio_effort": 11})", "\"audio_effort\""},
+      {R"({"audio_fec": 51})", "\"audio_fec\""},
       {R"({"audio_codec": "mp3"})", "\"audio_codec\" is \"opus\" or \"aac\""},
       {R"({"Pitch": 50})", "no \"Pitch\"; there are articulate, audio_bitrate"}};
   for (const auto& [text, sentence] : faults) {

@@ -53,10 +53,12 @@ class WebRtcBrowser : public ::testing::Test {
   }
 
   void serve() { run(webrtc::make_webrtc_sink("webrtc://127.0.0.1:0")); }
-  void run(Result<std::unique_ptr<web::WebSink>> sink) {
+  void run(Result<std::unique_ptr<web::WebSink>> sink,
+           std::optional<media::EncodedAudio> sound = std::nullopt) {
     ASSERT_TRUE(sink);
     web_ = sink->get();
-    server_.emplace(std::move(*sink));
+    if (!sound) sound = make_sound(8, media::AudioCodec::opus);
+    server_.emplace(std::move(*sink), std::move(*sound));
     ASSERT_TRUE(server_->started()) << server_->started().error().message;
   }
 

@@ -30,11 +30,20 @@ class FakePeer : public webrtc::Peer {
     messages.emplace_back(message.begin(), message.end());
     return true;
   }
-  void send_sound(std::span<const std::uint8_t>, std::uint32_t) override {}
+  void send_sound(std::span<const std::uint8_t> packet, std::uint32_t, bool redundant) override {
+    sounds.push_back({{packet.begin(), packet.end()}, redundant});
+  }
+  double reported_loss() override { return loss; }
   void goodbye() override {}
 
   bool full = false;
   std::vector<Bytes> messages;
+  struct Sound {
+    Bytes bytes;
+    bool redundant = false;
+  };
+  std::vector<Sound> sounds;
+  double loss = 0;
 
  private:
   bool reliable_;
@@ -75,7 +84,7 @@ class FeedTest : public testing::Test {
     media::LiveInfo info;
     info.timescale = 25000;
     info.face_config = {1, 2, 3};
-    auto feed = webrtc::Feed::make(info, 5);
+    auto feed = webrtc::Feed::make(info, {.repeat = 5});
     ASSERT_TRUE(feed);
     feed_.emplace(std::move(*feed));
   }
@@ -174,6 +183,45 @@ TEST_F(FeedTest, WhereTooMuchWaitsAReliableChannelBeginsAnew) {
   expect_values(peer, 20);
   EXPECT_TRUE(single(later.messages[0]).unit.flags & web::kIntra);
   EXPECT_TRUE(single(later.messages[11]).unit.flags & web::kIntra) << "it was forgotten";
+}
+
+// Packets of sound for one receiver that knows RFC 2198 and one that does not.
+TEST(FeedSound, GoesAgainWhereItIsLost) {
+  media::LiveInfo info;
+  info.timescale = 25000;
+  info.face_config = {1, 2, 3};
+  info.audio = media::AudioFormat{media::AudioCodec::opus, 48000, 1, 960, 312, {}};
+  for (const int repeat : {-1, 0, 1}) {
+    auto feed = webrtc::Feed::make(info, {.audio_repeat = repeat});
+    ASSERT_TRUE(feed);
+    webrtc::Receiver knows, other;
+    knows.types = {111, 63};
+    other.types = {96, -1};
+    knows.peer = std::make_unique<FakePeer>(false);
+    other.peer = std::make_unique<FakePeer>(false);
+    auto& first = static_cast<FakePeer&>(*knows.peer);
+    auto& second = static_cast<FakePeer&>(*other.peer);
+    for (int i = 0; i < 40; ++i) {
+      first.loss = second.loss = i < 20 ? 0 : 0.1;
+      media::LiveUnit unit;
+      unit.track = media::LiveTrack::audio;
+      unit.time = std::int64_t(i) * 960;
+      unit.duration = 960;
+      unit.bytes = Bytes(100, std::uint8_t(i));
+      feed->push(unit, {});
+      feed->give(knows);
+      feed->give(other);
+    }
+    ASSERT_EQ(first.sounds.size(), 40u);
+    for (std::size_t i = 1; i < 40; ++i) {
+      const int wanted = repeat >= 0 ? repeat : i < 20 ? 0 : 2;
+      EXPECT_EQ(first.sounds[i].redundant, wanted > 0) << i;
+      EXPECT_EQ(first.sounds[i].bytes.size(),
+                wanted == 0 ? 100u : 1 + 100 + std::size_t(wanted) * 104);
+      EXPECT_EQ(second.sounds[i].bytes, Bytes(100, std::uint8_t(i)));
+      EXPECT_FALSE(second.sounds[i].redundant);
+    }
+  }
 }
 
 }  // namespace feed_test

@@ -27,8 +27,10 @@ class Broadcast {
  public:
   explicit Broadcast(std::unique_ptr<media::LiveSink> sink,
                      media::AudioCodec codec = media::AudioCodec::opus)
+      : Broadcast(std::move(sink), make_sound(8, codec)) {}
+  Broadcast(std::unique_ptr<media::LiveSink> sink, media::EncodedAudio sound)
       : sink_(std::move(sink)),
-        input_(make_mouth(8), make_sound(8, codec), media::ClipOptions{.loop = true}) {
+        input_(make_mouth(8), std::move(sound), media::ClipOptions{.loop = true}) {
     started_ = sink_->start(input_.info());
     if (started_) thread_ = std::thread([this] { run(); });
   }

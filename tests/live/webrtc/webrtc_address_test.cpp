@@ -19,13 +19,14 @@ TEST(WebRtcAddress, TellsWhatAddressesAre) {
 }
 
 TEST(WebRtcAddress, OptionsThatDoNotFitAreNamed) {
-  for (const std::string good :
-       {"", "?repeat=0", "?repeat=30", "?stun=a:1&turn=u:p@b:2&repeat=3"}) {
+  for (const std::string good : {"", "?repeat=0", "?repeat=30", "?stun=a:1&turn=u:p@b:2&repeat=3",
+                                 "?audio-repeat=0", "?repeat=1&audio-repeat=3"}) {
     EXPECT_TRUE(webrtc::make_webrtc_sink("webrtc://127.0.0.1:0" + good)) << good;
     EXPECT_TRUE(webrtc::make_whip_sink("whip://127.0.0.1:1/path" + good)) << good;
   }
-  for (const std::string bad : {"?repeat=31", "?repeat=-1", "?repeat=x", "?repeat=1x",
-                                "?stun=", "?turn=host", "?", "?a=b"}) {
+  for (const std::string bad :
+       {"?repeat=31", "?repeat=-1", "?repeat=x", "?repeat=1x", "?audio-repeat=4",
+        "?audio-repeat=", "?audio-repeat=auto", "?stun=", "?turn=host", "?", "?a=b"}) {
     for (const auto& error : {webrtc::make_webrtc_sink("webrtc://127.0.0.1:0" + bad).error(),
                               webrtc::make_whip_sink("whip://127.0.0.1:1/path" + bad).error()}) {
       EXPECT_EQ(error.code, Code::invalid_argument);

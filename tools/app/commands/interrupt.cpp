@@ -15,6 +15,8 @@ namespace {
 std::atomic<int> noted = 0;  // the signal
 std::atomic<unsigned> grace_seconds = 0;
 int living = 0;
+std::atomic<bool> hung_up = false;
+struct sigaction old_hangup;
 struct sigaction old_interrupt, old_terminate, old_pipe, old_alarm;
 
 void end_by(int signal_number) {
@@ -28,6 +30,8 @@ void note(int signal_number) {
   if (noted.exchange(signal_number) != 0) return end_by(signal_number);
   if (grace_seconds > 0) ::alarm(grace_seconds);
 }
+
+void note_hangup(int) { hung_up = true; }
 
 void end_of_grace(int) { end_by(noted != 0 ? int(noted) : SIGTERM); }
 
@@ -56,6 +60,19 @@ Interrupt::~Interrupt() {
   sigaction(SIGTERM, &old_terminate, nullptr);
   sigaction(SIGPIPE, &old_pipe, nullptr);
 }
+
+Hangup::Hangup() {
+  hung_up = false;
+  struct sigaction action = {};
+  action.sa_handler = note_hangup;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGHUP, &action, &old_hangup);
+}
+
+Hangup::~Hangup() { sigaction(SIGHUP, &old_hangup, nullptr); }
+
+bool Hangup::taken() { return hung_up.exchange(false); }
 
 bool Interrupt::requested() { return noted != 0; }
 

@@ -27,6 +27,19 @@ class Interrupt {
   static bool terminated();
 };
 
+/// While one lives, SIGHUP is noted and ends nothing: services read their settings again. For the
+/// main thread; one at a time.
+class Hangup {
+ public:
+  Hangup();
+  ~Hangup();
+  Hangup(const Hangup&) = delete;
+  Hangup& operator=(const Hangup&) = delete;
+
+  /// Has one come since the last call?
+  static bool taken();
+};
+
 /// Grace of programs that run until they are told to end.
 inline constexpr unsigned kLiveGrace = 10;
 

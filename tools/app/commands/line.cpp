@@ -40,6 +40,12 @@ constexpr std::string_view kRepair[] = {"encode",  "decode",   "mux",    "demux"
                                         "compare", "edit",     "stats",  "plot",  "view",
                                         "render",  "retarget", "export", "stream"};
 
+// Of the command that runs, without those of its settings file.
+std::vector<std::string>& line_words() {
+  static std::vector<std::string> words;
+  return words;
+}
+
 OptionTable common_table(CommonFlags& flags) {
   OptionTable table(
       "animeme",
@@ -121,6 +127,7 @@ int run_line(std::span<const char* const> arguments) {
   Action action;
   if (command != nullptr) program.commands.push_back(table_of(*command, action, flags));
   OptionTable* const table = command == nullptr ? nullptr : &program.commands.front();
+  line_words().assign(words.begin(), words.end());
   const Result<std::vector<std::string>> settings =
       table == nullptr ? std::vector<std::string>() : settings_words(*table, words);
   if (!settings && settings.error().code == Code::invalid_argument) {
@@ -173,6 +180,19 @@ int run_line(std::span<const char* const> arguments) {
   if (!result) return report_error(result.error());
   if (flags.report && *result != kUsage) std::cout << report_text() << "\n";
   return *result == kOk && damage_reported() ? kCheckFailed : *result;
+}
+
+Result<void> parse_again(OptionTable& table) {
+  std::vector<const char*> words;
+  for (const std::string& word : line_words()) words.push_back(word.c_str());
+  const Result<std::vector<std::string>> settings = settings_words(table, words);
+  if (!settings) return settings.error();
+  for (const std::string& word : *settings) words.push_back(word.c_str());
+  CommonFlags flags;
+  OptionTable program = common_table(flags);
+  const ParsedLine line = parse_line(program, &table, words);
+  if (line.action == ParsedLine::Action::run) return {};
+  return make_error(Code::invalid_argument, line.problem);
 }
 
 }  // namespace animeme::tools

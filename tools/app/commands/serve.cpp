@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/head_options.h"
 #include "tools/app/commands/interrupt.h"
+#include "tools/app/commands/line.h"
 #include "tools/app/commands/options.h"
 #include "tools/app/commands/over_options.h"
 #include "tools/app/commands/shown_heads.h"
@@ -30,20 +32,21 @@ namespace {
 
 // What was said on the command line.
 struct ServeOptions {
-  std::string heads;                // file with heads that are there from the beginning
-  std::string settings;             // --settings, which line.cpp has read
-  std::string token_file;           // --token-file
-  std::vector<std::string> models;  // --model, NAME=FILE
-  std::vector<std::string> tts;     // --tts, NAME=COMMAND
-  std::string viewers = "open";     // --viewers
-  std::vector<std::string> ice;     // --ice-server
-  std::vector<std::string> overs;   // --over, likewise
-  HeadChoices faces;                // --head and what belongs to it
-  serve::ServerOptions server;      // all others
-  bool stats = false;               // --stats
-  double drain = 30;                // --drain
-  std::string log;                  // --log
-  bool json = false;                // --json
+  std::string heads;                  // file with heads that are there from the beginning
+  std::string settings;               // --settings, which line.cpp has read
+  std::string token_file;             // --token-file
+  std::vector<std::string> models;    // --model, NAME=FILE
+  std::vector<std::string> tts;       // --tts, NAME=COMMAND
+  std::string viewers = "open";       // --viewers
+  std::vector<std::string> ice;       // --ice-server
+  std::string audio_repeat = "auto";  // --audio-repeat
+  std::vector<std::string> overs;     // --over, likewise
+  HeadChoices faces;                  // --head and what belongs to it
+  serve::ServerOptions server;        // all others
+  bool stats = false;                 // --stats
+  double drain = 30;                  // --drain
+  std::string log;                    // --log
+  bool json = false;                  // --json
 };
 
 std::string bad_url(const std::string& text) {
@@ -87,7 +90,7 @@ void add_options(OptionTable& cli, ServeOptions& options) {
           "\"anna\", \"lang\": \"en+f3\"}, ...]}");
   cli.add("--settings", options.settings,
           "File with options, a line each: max-heads = 50, make-on-say = true, heads = FILE; the "
-          "command line comes first")
+          "command line comes first; SIGHUP reads it again")
       ->value("FILE");
   cli.add("--listen", server.url,
           "Address: by default this machine only; http://0.0.0.0:8080 for all (with a token)")
@@ -141,7 +144,7 @@ void add_options(OptionTable& cli, ServeOptions& options) {
       ->between(0, 64)
       ->show_default();
   add_server_web_options(cli, server.web);
-  add_ice_option(cli, options.ice);
+  add_rtc_options(cli, options.ice, options.audio_repeat);
   add_heads_options(cli, options.faces.heads, options.faces.rest);
   cli.add("--log", options.log,
           "Write requests, heads and lines to standard error, without texts: text, or a JSON "
@@ -150,7 +153,7 @@ void add_options(OptionTable& cli, ServeOptions& options) {
   cli.add("--stats", options.stats, "Print statistics once per second");
   cli.add("--json", options.json, "Print the address as JSON at the start, statistics at the end");
   cli.show_in_help_all("Server",
-                       "--threads --ice-server --max-waiting --drain --max-clients "
+                       "--threads --ice-server --audio-repeat --max-waiting --drain --max-clients "
                        "--max-per-address --allow-origin --host-name "
                        "--points --shape-name --shape-names --gain");
 }
@@ -230,16 +233,17 @@ void wait_for_silence(serve::HeadServer& server, double seconds) {
   }
 }
 
-Result<int> run(ServeOptions& options) {
-  serve::ServerOptions& wanted = options.server;
-  if (const std::string problem = problem_of(options.faces); !problem.empty()) {
-    return usage_error(problem);
-  }
+using NamedHeads = std::vector<std::pair<std::string, serve::HeadSettings>>;
+
+// What is read from files, and named: the token, models, voices, performances, heads. Gives what
+// is wrong with the options; empty: nothing.
+Result<std::string> read_named(const ServeOptions& options, serve::ServerOptions& wanted,
+                               NamedHeads& heads) {
   Result<std::string> token = read_token(options.token_file);
   if (!token) return token.error();
   wanted.token = *token;
   if (wanted.token.empty() && web::is_open_to_others(wanted.url)) {
-    return usage_error(
+    return std::string(
         "anyone who can reach that address could create heads and let them talk; give a token "
         "(--token-file), or listen on this machine only");
   }
@@ -253,7 +257,7 @@ Result<int> run(ServeOptions& options) {
   }
   wanted.guard_viewers = options.viewers == "token";
   if (wanted.guard_viewers && wanted.token.empty()) {
-    return usage_error("--viewers token needs a token (--token-file)");
+    return std::string("--viewers token needs a token (--token-file)");
   }
   for (const std::string& over : options.overs) {
     const std::size_t equals = over.find('=');
@@ -262,17 +266,60 @@ Result<int> run(ServeOptions& options) {
     wanted.performances[over.substr(0, equals)] =
         std::make_shared<const dam::Performance>(std::move(*performance));
   }
-  std::vector<std::pair<std::string, serve::HeadSettings>> heads;
-  if (!options.heads.empty()) {
-    Result<serve::HeadList> list = serve::read_head_list(options.heads, wanted.defaults);
-    if (!list) return list.error();
-    wanted.defaults = list->defaults;
-    heads = std::move(list->heads);
-    if (heads.size() > std::size_t(wanted.most_heads)) {
-      return usage_error("the file has " + std::to_string(heads.size()) +
-                         " heads; allow as many with --max-heads");
-    }
+  if (options.heads.empty()) return std::string();
+  Result<serve::HeadList> list = serve::read_head_list(options.heads, wanted.defaults);
+  if (!list) return list.error();
+  wanted.defaults = list->defaults;
+  heads = std::move(list->heads);
+  if (heads.size() > std::size_t(wanted.most_heads)) {
+    return "the file has " + std::to_string(heads.size()) +
+           " heads; allow as many with --max-heads";
   }
+  return std::string();
+}
+
+// SIGHUP: the files as they are now, for what comes from now on. Where something is wrong with
+// them, all stays as it is.
+Result<void> read_again(serve::HeadServer& server) {
+  ServeOptions options;
+  OptionTable table("serve", "", "");
+  add_options(table, options);
+  if (auto ok = parse_again(table); !ok) return ok;
+  NamedHeads heads;
+  const Result<std::string> problem = read_named(options, options.server, heads);
+  if (!problem) return problem.error();
+  if (!problem->empty()) return make_error(Code::invalid_argument, *problem);
+  if (auto ok = server.change(options.server); !ok) return ok;
+  for (const auto& [name, settings] : heads) {
+    if (server.find(name)) continue;
+    const auto made = server.make(name, settings, false);
+    if (!made) return make_error(made.error().code, name + ": " + made.error().describe());
+  }
+  return {};
+}
+
+void take_settings(serve::HeadServer& server, const serve::Log& log) {
+  const Result<void> taken = read_again(server);
+  if (!taken) {
+    warn("the settings stay as they were: " + taken.error().describe());
+  } else {
+    say("read the settings again");
+  }
+  if (!log) return;
+  Json entry{{"kind", "settings"}, {"what", taken ? "read again" : "refused"}};
+  if (!taken) entry["why"] = taken.error().describe();
+  log(entry);
+}
+
+Result<int> run(ServeOptions& options) {
+  serve::ServerOptions& wanted = options.server;
+  if (const std::string problem = problem_of(options.faces); !problem.empty()) {
+    return usage_error(problem);
+  }
+  NamedHeads heads;
+  const Result<std::string> problem = read_named(options, wanted, heads);
+  if (!problem) return problem.error();
+  if (!problem->empty()) return usage_error(*problem);
   allow_many_files();
   voice::keep_voices();  // while this process is small
   const studio::HeadChoice& rest = options.faces.rest;
@@ -280,7 +327,7 @@ Result<int> run(ServeOptions& options) {
       rest.gain != "1") {
     if (auto given = give_heads(options.faces, wanted.web); !given) return given.error();
   }
-  if (auto ok = use_ice_servers(options.ice, wanted.web); !ok) {
+  if (auto ok = use_rtc_options(options.ice, options.audio_repeat, wanted.web); !ok) {
     return usage_error(ok.error().message);
   }
   wanted.web = live::with_head(wanted.web);
@@ -288,6 +335,10 @@ Result<int> run(ServeOptions& options) {
     wanted.log = [json = options.log == "json"](const Json& entry) { write_log(entry, json); };
   }
   const Interrupt interrupt(kLiveGrace + unsigned(std::ceil(options.drain)));
+  std::optional<Hangup> hangup;
+  if (!options.settings.empty() || !options.token_file.empty() || !options.heads.empty()) {
+    hangup.emplace();  // without such files SIGHUP ends the program, as a terminal that closes does
+  }
   auto server = serve::HeadServer::open(wanted, heads);
   if (!server && server.error().code == Code::invalid_argument) {
     return usage_error(server.error().message);
@@ -300,6 +351,7 @@ Result<int> run(ServeOptions& options) {
   }
   StatusLine status;
   for (int i = 1; !Interrupt::requested(); ++i) {
+    if (hangup && Hangup::taken()) take_settings(**server, wanted.log);
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     if (i % 10 != 0) continue;
     (*server)->look();

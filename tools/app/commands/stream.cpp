@@ -298,7 +298,7 @@ Result<int> run(StreamOptions& options) {
       return ok.error();
     }
   }
-  if (auto ok = use_ice_servers(options.ice, options.sink.web); !ok) {
+  if (auto ok = use_rtc_options(options.ice, options.audio_repeat, options.sink.web); !ok) {
     return usage_error(ok.error().message);
   }
   auto sinks = live::Sinks::open(options.to, options.sdp, options.sink, terminal_log());

@@ -100,6 +100,12 @@ void add_coding_options(OptionTable& cli, StreamOptions& options) {
   cli.add("--audio-bitrate", options.program.coding.audio.bit_rate,
           "Bits per second of sound that is encoded; default: aac 64000, opus 40000")
       ->between(6000, 320000);
+  cli.add("--audio-fec", options.program.coding.audio.expected_loss,
+          "opus: percent of packets that receivers lose; each has the one before it again, "
+          "coarsely; "
+          "not for sound that is Opus already")
+      ->between(0, 50)
+      ->show_default();
 }
 
 void add_web_options(OptionTable& cli, web::WebOptions& options) {
@@ -128,7 +134,8 @@ void add_guard_options(OptionTable& cli, web::WebOptions& options) {
       ->one_at_a_time();
 }
 
-void add_ice_option(OptionTable& cli, std::vector<std::string>& servers) {
+void add_rtc_options(OptionTable& cli, std::vector<std::string>& servers,
+                     std::string& audio_repeat) {
   cli.add("--ice-server", servers,
           "Server that helps WebRTC through NAT: stun:HOST:PORT tells the public address of this "
           "machine, turn:USER:PASSWORD@HOST:PORT relays; one of each; a webrtc address has its own")
@@ -139,11 +146,18 @@ void add_ice_option(OptionTable& cli, std::vector<std::string>& servers) {
         return added ? std::string() : added.error().message;
       })
       ->one_at_a_time();
+  cli.add("--audio-repeat", audio_repeat,
+          "WebRTC: how many packets of sound go again with each, against loss (RFC 2198): auto, by "
+          "what a browser reports; a webrtc address has its own")
+      ->one_of("auto 0 1 2 3")
+      ->show_default();
 }
 
-Result<void> use_ice_servers(const std::vector<std::string>& servers, web::WebOptions& options) {
-  if (servers.empty()) return {};
+Result<void> use_rtc_options(const std::vector<std::string>& servers,
+                             const std::string& audio_repeat, web::WebOptions& options) {
+  if (servers.empty() && audio_repeat == "auto") return {};
   webrtc::WebRtcOptions settings;
+  if (audio_repeat != "auto") settings.audio_repeat = audio_repeat.front() - '0';
   for (const std::string& server : servers) {
     if (auto ok = webrtc::add_ice_server(server, settings); !ok) return ok;
   }
@@ -181,7 +195,7 @@ void add_options(OptionTable& cli, StreamOptions& options) {
       ->between(1, 16)
       ->show_default();
   add_web_options(cli, options.sink.web);
-  add_ice_option(cli, options.ice);
+  add_rtc_options(cli, options.ice, options.audio_repeat);
   add_heads_options(cli, options.heads.heads, options.heads.rest);
   add_coding_options(cli, options);
   cli.add("--fast", options.fast, "Send as fast as possible instead of in real time");
@@ -192,7 +206,8 @@ void add_options(OptionTable& cli, StreamOptions& options) {
       "Voices, coding and transport",
       "--tier --speaker --speak-marks --script-format --max-seconds --speed --pitch --liveliness "
       "--look --still --seed --no-tongue --hear-pcm --mtu --repeat --repeat-after "
-      "--bundle --ice-server --max-clients --max-per-address --allow-origin --host-name --delay "
+      "--bundle --ice-server --audio-repeat --audio-fec --max-clients --max-per-address "
+      "--allow-origin --host-name --delay "
       "--intra-seconds "
       "--points --shape-name --shape-names --gain --copy --quant --rms --kbps --small "
       "--default-ranges --encoder-delay --stats --keep --track --pcm --style --fast "

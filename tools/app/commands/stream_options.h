@@ -18,27 +18,28 @@ struct OptionTable;
 
 /// What was said on the command line.
 struct StreamOptions {
-  std::string track;             ///< --track
-  std::string input;             ///< the clip
-  std::vector<std::string> to;   ///< --to
-  std::vector<std::string> sdp;  ///< --sdp
-  live::SinkOptions sink;        ///< --mtu, --repeat, --bundle, --max-clients ...
-  std::vector<std::string> ice;  ///< --ice-server
-  HeadChoices heads;             ///< --head, for the page
-  live::ProgramOptions program;  ///< what is sent, and how it is coded
-  std::string codec;             ///< --audio-codec
-  StreamSettings limits;         ///< --rms, --kbps and --small
-  std::string rate = "25";       ///< --rate
-  std::string mood;              ///< --mood
-  IdleOptions idle;              ///< --idle-motion and its like
-  OverChoice over;               ///< --over, --keep
-  std::string pcm;               ///< --pcm
-  std::string hear_pcm;          ///< --hear-pcm
-  std::string events;            ///< --events
-  bool no_sound = false;         ///< --no-sound
-  bool fast = false;             ///< --fast
-  bool stats = false;            ///< --stats
-  bool json = false;             ///< --json
+  std::string track;                  ///< --track
+  std::string input;                  ///< the clip
+  std::vector<std::string> to;        ///< --to
+  std::vector<std::string> sdp;       ///< --sdp
+  live::SinkOptions sink;             ///< --mtu, --repeat, --bundle, --max-clients ...
+  std::vector<std::string> ice;       ///< --ice-server
+  std::string audio_repeat = "auto";  ///< --audio-repeat
+  HeadChoices heads;                  ///< --head, for the page
+  live::ProgramOptions program;       ///< what is sent, and how it is coded
+  std::string codec;                  ///< --audio-codec
+  StreamSettings limits;              ///< --rms, --kbps and --small
+  std::string rate = "25";            ///< --rate
+  std::string mood;                   ///< --mood
+  IdleOptions idle;                   ///< --idle-motion and its like
+  OverChoice over;                    ///< --over, --keep
+  std::string pcm;                    ///< --pcm
+  std::string hear_pcm;               ///< --hear-pcm
+  std::string events;                 ///< --events
+  bool no_sound = false;              ///< --no-sound
+  bool fast = false;                  ///< --fast
+  bool stats = false;                 ///< --stats
+  bool json = false;                  ///< --json
 };
 
 /// Adds them.
@@ -47,11 +48,13 @@ void add_options(OptionTable& cli, StreamOptions& options);
 /// Adds --allow-origin and --host-name: who may use a web server, and by which names.
 void add_guard_options(OptionTable& cli, web::WebOptions& options);
 
-/// Adds --ice-server.
-void add_ice_option(OptionTable& cli, std::vector<std::string>& servers);
+/// Adds --ice-server and --audio-repeat.
+void add_rtc_options(OptionTable& cli, std::vector<std::string>& servers,
+                     std::string& audio_repeat);
 
 /// Makes the WebRTC of a web server use them. Errors: those of webrtc::add_ice_server().
-Result<void> use_ice_servers(const std::vector<std::string>& servers, web::WebOptions& options);
+Result<void> use_rtc_options(const std::vector<std::string>& servers,
+                             const std::string& audio_repeat, web::WebOptions& options);
 
 /// Runs the command with them.
 Result<int> run(StreamOptions& options);

@@ -16,6 +16,7 @@ namespace {
 constexpr std::size_t kEncoderBlock = 256;
 
 constexpr int kMostEffort = 10;
+constexpr int kMostLoss = 50;  // percent
 constexpr int kAnalysing = 7;  // libopus looks at the sound from this complexity on
 
 // The encoders refuse NaN and infinity for the whole track, and a resampler would spread them.
@@ -41,6 +42,9 @@ Result<void> check(int sample_rate, const AudioSettings& settings, int channels)
   }
   if (settings.effort < 0 || settings.effort > kMostEffort) {
     return make_error(Code::invalid_argument, "the effort of an encoder of sound is 0 to 10");
+  }
+  if (settings.expected_loss < 0 || settings.expected_loss > kMostLoss) {
+    return make_error(Code::invalid_argument, "the expected loss of packets is 0 to 50 percent");
   }
   return {};
 }
@@ -72,6 +76,12 @@ Result<av::Codec> open_encoder(const AudioSettings& settings, int sample_rate,
     context->compression_level = settings.effort;
     // Without measuring first, its bit rate is far from the target.
     if (settings.effort < kAnalysing) av_opt_set(context->priv_data, "vbr", "constrained", 0);
+    if (settings.expected_loss > 0) {
+      // What is repeated belongs to the part of Opus for speech, which music and tones do not use.
+      av_opt_set(context->priv_data, "application", "voip", 0);
+      av_opt_set_int(context->priv_data, "fec", 1, 0);
+      av_opt_set_int(context->priv_data, "packet_loss", settings.expected_loss, 0);
+    }
   }
   if (codec == AudioCodec::aac) {
     const bool fast = settings.aac_search == AacSearch::fast;

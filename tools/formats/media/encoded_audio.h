@@ -74,6 +74,10 @@ struct AudioSettings {
   /// signal to noise ratio of 17.7 dB with 10, 16.7 dB with 5.
   int effort = 10;
   AacSearch aac_search = AacSearch::fast;  ///< AAC only
+  /// Opus: percent of the packets that receivers are expected to lose, 0..50. Each packet of speech
+  /// then has the one before it again, coarsely (in-band FEC, RFC 6716, section 2.1.7), within the
+  /// same bit rate. Above 0 the encoder works as for a voice.
+  int expected_loss = 0;
 };
 
 /// Sound in, packets out, for sound that is still being made. Movable, not copyable. Same sound in

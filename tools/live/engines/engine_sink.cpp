@@ -255,7 +255,7 @@ double time_of_day() {
 class FaceWriter {
  public:
   explicit FaceWriter(const EngineAddress& address)
-      : address_(address), unified_(address.prefix, address.gaze) {
+      : address_(address), unified_(address.prefix, address.gaze, address.binary) {
     packet_.subject = address.subject.value_or(kSubject);
     packet_.device = device_of(packet_.subject);
   }

@@ -26,6 +26,7 @@
 /// | bones=on, off | vmc, to send | send head and eyes; on |
 /// | prefix=NAME | osc, to send | before the name of a parameter; v2 |
 /// | gaze=on, off | osc, to send | send /tracking/eye; on |
+/// | binary=1..8 | osc, to send | also send so many bits of each parameter; none |
 ///
 /// Weights are those of fap::ArkitFitter, faces those of fap::arkit_to_fap(). Sound is not sent.
 /// Layouts are from public receivers and specifications, listed in the files of detail/.

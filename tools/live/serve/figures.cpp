@@ -92,7 +92,7 @@ Json HeadServer::figures() const {
   }
   return {{"count", sums.heads},
           {"awake", sums.awake},
-          {"most", options_.most_heads},
+          {"most", options()->most_heads},
           {"viewers", server_->viewers()},
           {"planes", sums.planes},
           {"late_50_ms", milliseconds(late.percentile(0.5))},

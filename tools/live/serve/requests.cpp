@@ -89,11 +89,12 @@ bool speaks(const std::string& line) {
 
 bool HeadServer::allowed(const web::ServerRequest& request) const {
   constexpr std::string_view kBearer = "bearer ";  // in any case: RFC 9110, section 11.1
-  if (options_.token.empty()) return true;
+  const auto options = this->options();
+  if (options->token.empty()) return true;
   const std::string_view given = request.authorization;
   if (media::lower_case(std::string(given.substr(0, kBearer.size()))) != kBearer) return false;
   const std::size_t begin = given.find_first_not_of(' ', kBearer.size());
-  return begin != std::string_view::npos && same_secret(given.substr(begin), options_.token);
+  return begin != std::string_view::npos && same_secret(given.substr(begin), options->token);
 }
 
 bool HeadServer::may_watch(const web::ServerRequest& request) const {
@@ -102,7 +103,8 @@ bool HeadServer::may_watch(const web::ServerRequest& request) const {
   if (end == std::string::npos || allowed(request))
     return true;  // no viewer's, or that of the owner
   const std::string name = request.path.substr(kHeads.size(), end - kHeads.size());
-  return tickets_.allows(name, query_value(request.query, "ticket"), std::time(nullptr));
+  return Tickets(options()->token)
+      .allows(name, query_value(request.query, "ticket"), std::time(nullptr));
 }
 
 ServerReply HeadServer::health() const {
@@ -184,7 +186,7 @@ ServerReply HeadServer::put(const std::string& name, const std::string& method,
   const std::shared_ptr<Head> known = find(name);
   if (!known && method == "PATCH") return refusal(404, "There is no such head.");
   const Result<HeadSettings> settings =
-      read_settings(*json, method == "PATCH" ? known->settings() : options_.defaults);
+      read_settings(*json, method == "PATCH" ? known->settings() : options()->defaults);
   if (!settings) return refusal(settings.error());
   if (!known) return make_for_request(name, *settings);
   if (method == "POST" && settings_json(known->settings()) != settings_json(*settings)) {
@@ -226,10 +228,11 @@ ServerReply HeadServer::ticket(const std::string& name, const std::string& body)
   if (!(seconds >= 1 && seconds <= kMostTicketSeconds)) {
     return refusal(400, "A ticket is valid for 1 to 2592000 seconds.");
   }
-  if (options_.token.empty()) return refusal(400, "Tickets are made with a token; there is none.");
+  const std::string token = options()->token;
+  if (token.empty()) return refusal(400, "Tickets are made with a token; there is none.");
   if (!find(name)) return refusal(404, "There is no such head.");
   const std::int64_t expires = std::int64_t(std::time(nullptr)) + std::int64_t(seconds);
-  const std::string made = tickets_.make(name, expires);
+  const std::string made = Tickets(token).make(name, expires);
   return reply(200, {{"ticket", made},
                      {"expires", expires},
                      {"path", std::string(kHeads) + name + "/?ticket=" + made}});
@@ -242,8 +245,9 @@ ServerReply HeadServer::say(const std::string& name, const std::string& body) {
   const bool speech = std::any_of(lines.begin(), lines.end(), speaks);
   if (speech && draining()) return later(503, "The server is about to end.", 1);
   std::shared_ptr<Head> head = find(name);
-  if (!head && options_.make_on_say) {
-    const auto made = make(name, options_.defaults);
+  const auto options = this->options();
+  if (!head && options->make_on_say) {
+    const auto made = make(name, options->defaults);
     if (!made && made.error().code == Code::out_of_range) {
       return later(429, made.error().describe(), 60);
     }
@@ -253,7 +257,7 @@ ServerReply HeadServer::say(const std::string& name, const std::string& body) {
   if (!head) return refusal(404, "There is no such head.");
   std::size_t bytes = body.size();
   for (const auto& [other, each] : all()) bytes += each->bytes_waiting();
-  if (speech && bytes > options_.most_bytes) {
+  if (speech && bytes > options->most_bytes) {
     return later(429, "All heads together have too much to say; send more later.", 5);
   }
   const std::size_t count = lines.size();

@@ -37,16 +37,7 @@ class Refused : public web::Intake {
   const web::ServerAnswer answer_;
 };
 
-int threads_of(const ServerOptions& options) {
-  return options.threads > 0 ? options.threads : int(std::thread::hardware_concurrency());
-}
-
-}  // namespace
-
-HeadServer::HeadServer(const ServerOptions& options) : options_(options) {}
-
-Result<std::unique_ptr<HeadServer>> HeadServer::open(
-    const ServerOptions& options, const std::vector<std::pair<std::string, HeadSettings>>& heads) {
+Result<void> check_options(const ServerOptions& options) {
   if (options.most_heads < 1 || options.most_heads > kMostHeads) {
     return bad("a server has 1 to 10000 heads");
   }
@@ -55,6 +46,21 @@ Result<std::unique_ptr<HeadServer>> HeadServer::open(
   if (options.guard_viewers && options.token.empty()) {
     return bad("tickets of viewers are made with the token, and there is none");
   }
+  return {};
+}
+
+int threads_of(const ServerOptions& options) {
+  return options.threads > 0 ? options.threads : int(std::thread::hardware_concurrency());
+}
+
+}  // namespace
+
+HeadServer::HeadServer(const ServerOptions& options)
+    : options_(std::make_shared<const ServerOptions>(options)), journal_(options.log) {}
+
+Result<std::unique_ptr<HeadServer>> HeadServer::open(
+    const ServerOptions& options, const std::vector<std::pair<std::string, HeadSettings>>& heads) {
+  if (auto ok = check_options(options); !ok) return ok.error();
   std::unique_ptr<HeadServer> server(new HeadServer(options));
   voice::keep_voices();  // one thread speaks: that of the voices
   try {
@@ -102,6 +108,29 @@ Result<std::unique_ptr<HeadServer>> HeadServer::open(
   return server;
 }
 
+Result<void> HeadServer::change(const ServerOptions& options) {
+  if (auto ok = check_options(options); !ok) return ok;
+  const std::lock_guard one_at_a_time(making_);
+  ServerOptions next = *this->options();
+  next.token = options.token;
+  next.most_heads = options.most_heads;
+  next.expire = options.expire;
+  next.most_seconds = options.most_seconds;
+  next.most_bytes = options.most_bytes;
+  next.make_on_say = options.make_on_say;
+  next.defaults = options.defaults;
+  next.models = options.models;
+  next.tts = options.tts;
+  next.performances = options.performances;
+  if (next.guard_viewers && next.token.empty()) {
+    return bad("tickets of viewers are made with the token, and there is none");
+  }
+  models_.clear();  // files may be others
+  const std::lock_guard lock(options_mutex_);
+  options_ = std::make_shared<const ServerOptions>(std::move(next));
+  return {};
+}
+
 HeadServer::~HeadServer() {
   {
     const std::lock_guard lock(mutex_);
@@ -120,10 +149,11 @@ HeadServer::~HeadServer() {
 Result<std::shared_ptr<const dam::Model>> HeadServer::model(const std::string& name) {
   const auto known = models_.find(name);
   if (known != models_.end()) return known->second;
-  const auto file = options_.models.find(name);
-  if (!name.empty() && file == options_.models.end()) {
+  const auto options = this->options();
+  const auto file = options->models.find(name);
+  if (!name.empty() && file == options->models.end()) {
     std::string all;
-    for (const auto& [each, path] : options_.models) all += (all.empty() ? "" : ", ") + each;
+    for (const auto& [each, path] : options->models) all += (all.empty() ? "" : ", ") + each;
     return make_error(
         Code::not_found,
         "there is no model '" + name.substr(0, 60) + "'" +
@@ -137,10 +167,11 @@ Result<std::shared_ptr<const dam::Model>> HeadServer::model(const std::string& n
 Result<std::shared_ptr<const dam::Performance>> HeadServer::performance(
     const std::string& name) const {
   if (name.empty()) return std::shared_ptr<const dam::Performance>();
-  const auto known = options_.performances.find(name);
-  if (known != options_.performances.end()) return known->second;
+  const auto options = this->options();
+  const auto known = options->performances.find(name);
+  if (known != options->performances.end()) return known->second;
   std::string all;
-  for (const auto& [each, over] : options_.performances) all += (all.empty() ? "" : ", ") + each;
+  for (const auto& [each, over] : options->performances) all += (all.empty() ? "" : ", ") + each;
   return make_error(
       Code::not_found,
       "there is no performance '" + name.substr(0, 60) + "'" +
@@ -162,7 +193,7 @@ Result<std::shared_ptr<Head>> HeadServer::make(const std::string& name,
       }
       return bad("there is a head " + name + " with other settings; DELETE it before");
     }
-    if (heads_.size() >= std::size_t(options_.most_heads)) {
+    if (heads_.size() >= std::size_t(options()->most_heads)) {
       return make_error(Code::out_of_range, "there are " + std::to_string(heads_.size()) +
                                                 " heads already, as many as may be (--max-heads)");
     }
@@ -186,16 +217,17 @@ Result<void> HeadServer::check(const HeadSettings& settings) const {
     for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
     return all;
   };
-  if (!settings.tts.empty() && !options_.tts.contains(settings.tts)) {
+  const auto options = this->options();
+  if (!settings.tts.empty() && !options->tts.contains(settings.tts)) {
     std::vector<std::string> names;
-    for (const auto& [name, command] : options_.tts) names.push_back(name);
+    for (const auto& [name, command] : options->tts) names.push_back(name);
     return bad("there is no voice '" + settings.tts.substr(0, 60) + "'" +
                (names.empty() ? "; commands are named with --tts NAME=COMMAND"
                               : "; there are " + list(names)));
   }
   if (settings.head.empty()) return {};
-  std::vector<std::string> names{options_.web.head_name};
-  for (const web::WebHead& head : options_.web.other_heads) names.push_back(head.name);
+  std::vector<std::string> names{options->web.head_name};
+  for (const web::WebHead& head : options->web.other_heads) names.push_back(head.name);
   std::erase(names, std::string());
   if (std::find(names.begin(), names.end(), settings.head) != names.end()) return {};
   return bad("the page has no head '" + settings.head.substr(0, 60) + "'" +
@@ -209,7 +241,7 @@ Result<HeadServer::Voice> HeadServer::voice(const HeadSettings& settings) {
     if (!maker) return maker.error();
     return Voice{std::move(*maker), false};
   }
-  speech::VoiceCommand command{.command = options_.tts.at(settings.tts)};
+  speech::VoiceCommand command{.command = options()->tts.at(settings.tts)};
   command.input.language = settings.voice.language;
   Result<speech::LineMaker> maker = speech::command_lines(command);
   if (!maker) return maker.error();
@@ -227,7 +259,7 @@ Result<std::shared_ptr<Head>> HeadServer::open_head(const std::string& name,
   if (!over) return over.error();
   return Head::open(name, settings, *found, *over,
                     {*voices_, std::move(spoken->maker), spoken->slow, *server_, *loop_,
-                     media::steady_clock(), journal_, options_.most_seconds});
+                     media::steady_clock(), journal_, options()->most_seconds});
 }
 
 Result<void> HeadServer::update(const std::string& name, const HeadSettings& settings) {
@@ -322,12 +354,13 @@ void HeadServer::look() {
   std::size_t sound = 0;
   for (const auto& [name, head] : all()) sound += head->sound_waiting();
   sound_waiting_ = sound;
-  if (options_.expire <= 0) return;
+  const double expire = options()->expire;
+  if (expire <= 0) return;
   std::vector<std::string> old;
   {
     const std::lock_guard lock(mutex_);
     for (const auto& [name, kept] : heads_) {
-      if (kept.expires && kept.head->figures().idle > options_.expire) old.push_back(name);
+      if (kept.expires && kept.head->figures().idle > expire) old.push_back(name);
     }
   }
   for (const std::string& name : old) remove(name);
@@ -374,7 +407,7 @@ bool HeadServer::makes_a_head(const web::ServerRequest& request) const {
   std::string name = request.path.substr(kPath.size());
   if (!name.ends_with(kSaying)) return name.find('/') == std::string::npos;
   name.resize(name.size() - kSaying.size());
-  return options_.make_on_say && !heads_.contains(name);
+  return options()->make_on_say && !heads_.contains(name);
 }
 
 // In the thread of the server.

@@ -63,6 +63,11 @@ class HeadServer {
   HeadServer(const HeadServer&) = delete;
   HeadServer& operator=(const HeadServer&) = delete;
 
+  /// Takes other settings for what comes from now on: token, limits (`most_heads`, `expire`,
+  /// `most_seconds`, `most_bytes`), `make_on_say`, `defaults`, models (whose files are read anew),
+  /// commands of voices, performances. All others stay, and so do the heads that there are, with
+  /// their own limits. Errors: as open() (options); then nothing has changed.
+  Result<void> change(const ServerOptions& options);
   std::string address() const { return server_->address(); }  ///< with the real port
   /// Changes a head: without an interruption where only with_live_parts() differ, else it is made
   /// anew, its lines are cancelled and its viewers come back. Errors: not_found, those of make().
@@ -131,9 +136,14 @@ class HeadServer {
   Result<std::shared_ptr<const dam::Performance>> performance(const std::string& name) const;
   std::vector<std::pair<std::string, std::shared_ptr<Head>>> all() const;
 
-  const ServerOptions options_;
-  Journal journal_{options_.log};
-  const Tickets tickets_{options_.token};
+  std::shared_ptr<const ServerOptions> options() const {  // as of the last change()
+    const std::lock_guard lock(options_mutex_);
+    return options_;
+  }
+
+  mutable std::mutex options_mutex_;
+  std::shared_ptr<const ServerOptions> options_;
+  Journal journal_;
   const double begun_ = media::steady_clock().now();
   std::map<std::string, std::shared_ptr<const dam::Model>> models_;  // with making_
   std::unique_ptr<Voices> voices_;

@@ -165,6 +165,7 @@ Result<HeadSettings> read_settings(const Json& json, HeadSettings settings) {
   }
   members.number("audio_bitrate", 8000, 256000, settings.audio.bit_rate);
   members.number("audio_effort", 0, 10, settings.audio.effort);
+  members.number("audio_fec", 0, 50, settings.audio.expected_loss);
   if (auto ok = members.done(); !ok) return ok.error();
   return settings;
 }
@@ -205,7 +206,8 @@ Json settings_json(const HeadSettings& settings) {
           {"sound", settings.sound},
           {"audio_codec", media::name_of(settings.audio.codec)},
           {"audio_bitrate", settings.audio.bit_rate},
-          {"audio_effort", settings.audio.effort}};
+          {"audio_effort", settings.audio.effort},
+          {"audio_fec", settings.audio.expected_loss}};
 }
 
 bool is_head_name(std::string_view name) {

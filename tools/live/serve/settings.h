@@ -38,7 +38,8 @@ struct HeadSettings {
   double encoder_delay = 0;  ///< "encoder_delay": seconds by which all is sent later, for less bits
   int quant = 1;             ///< "quant", 0..31
   bool sound = true;         ///< "sound"
-  media::AudioSettings audio;  ///< "audio_codec", "audio_bitrate", "audio_effort" (Opus)
+  media::AudioSettings
+      audio;  ///< "audio_codec", "audio_bitrate", "audio_effort", "audio_fec" (Opus)
 
   HeadSettings();  ///< Opus with an effort of 5 at 48000 bits a second, the articulation of the
                    ///< model, a tongue

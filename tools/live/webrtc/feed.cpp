@@ -9,12 +9,14 @@ namespace animeme::webrtc {
 
 using media::LiveTrack;
 
-Feed::Feed(const media::LiveInfo& info, std::vector<std::uint8_t> hello, int repeat)
+Feed::Feed(const media::LiveInfo& info, std::vector<std::uint8_t> hello,
+           const WebRtcOptions& options)
     : timescale_(info.timescale),
       sample_rate_(info.audio ? info.audio->sample_rate : 0),
-      bundles_(std::move(hello), repeat) {}
+      bundles_(std::move(hello), options.repeat),
+      audio_repeat_(options.audio_repeat) {}
 
-Result<Feed> Feed::make(const media::LiveInfo& info, int repeat) {
+Result<Feed> Feed::make(const media::LiveInfo& info, const WebRtcOptions& options) {
   if (info.audio && info.audio->codec != media::AudioCodec::opus) {
     return make_error(Code::unsupported, std::string("WebRTC carries Opus, and this sound is ") +
                                              media::name_of(info.audio->codec) +
@@ -23,7 +25,7 @@ Result<Feed> Feed::make(const media::LiveInfo& info, int repeat) {
   return Feed(info,
               web::write_hello(
                   {info.visual_profile, info.audio.has_value(), info.timescale, info.face_config}),
-              repeat);
+              options);
 }
 
 void Feed::push(const media::LiveUnit& unit, std::string_view values) {
@@ -32,6 +34,7 @@ void Feed::push(const media::LiveUnit& unit, std::string_view values) {
   if (is_sound_) {
     message_ = unit.bytes;
     rtp_time_ = std::uint32_t(unit.time + std::int64_t(sample_rate_) * web::kWebTimeZero);
+    redundant_.push(message_, rtp_time_);
     return;
   }
   const std::int64_t time = unit.time + std::int64_t(timescale_) * web::kWebTimeZero;
@@ -111,10 +114,24 @@ void Feed::give(Receiver& receiver) {
   } else if (receiver.values && !is_sound_ && !values_.empty()) {
     send(receiver, kValues, text(values_), true);
   }
-  if (!is_sound_) return;
-  receiver.peer->send_sound(message_, rtp_time_);
+  if (is_sound_) give_sound(receiver);
+}
+
+void Feed::give_sound(Receiver& receiver) {
+  int repeats = 0;
+  if (receiver.types.redundant >= 0) {
+    repeats =
+        audio_repeat_ >= 0 ? audio_repeat_ : receiver.gauge.repeats(receiver.peer->reported_loss());
+  }
   ++stats_.packets;
-  stats_.bytes += std::int64_t(message_.size());
+  if (repeats == 0) {
+    receiver.peer->send_sound(message_, rtp_time_, false);
+    stats_.bytes += std::int64_t(message_.size());
+    return;
+  }
+  const std::vector<std::uint8_t> payload = redundant_.payload(repeats, receiver.types.opus);
+  receiver.peer->send_sound(payload, rtp_time_, true);
+  stats_.bytes += std::int64_t(payload.size());
 }
 
 void Feed::tell(Receiver& receiver, std::string_view json) {

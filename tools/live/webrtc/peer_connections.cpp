@@ -87,7 +87,7 @@ Result<void> PeerHub::start(const media::LiveInfo& info, int most, int per_addre
   if (now_) {
     if (Result<void> loaded = load(); !loaded) return loaded;
   }
-  Result<Feed> feed = Feed::make(info, options_.repeat);
+  Result<Feed> feed = Feed::make(info, options_);
   if (!feed) return feed.error();
   if (!now_ && !is_there())
     return make_error(Code::unsupported, "the module for WebRTC is missing");
@@ -222,12 +222,14 @@ void PeerHub::let_in(Offer offer) {
   settings.turn = options_.turn;
   Viewer viewer;
   viewer.address = std::move(offer.address);
+  if (has_sound_ && options_.audio_repeat != 0) viewer.types = sound_types(settings.offer);
+  settings.redundant = viewer.types.redundant;
   viewer.answered = std::make_shared<std::atomic<bool>>(false);
   viewer.peer = (*module)->open(
-      settings, [id = offer.id, answer = std::move(offer.answer), answered = viewer.answered](
-                    const std::string& description, const std::string& problem) {
+      settings, [id = offer.id, answer = std::move(offer.answer), answered = viewer.answered,
+                 types = viewer.types](const std::string& description, const std::string& problem) {
         *answered = true;
-        if (problem.empty()) return answer({201, id, description});
+        if (problem.empty()) return answer({201, id, with_redundant(description, types)});
         answer({400, "", problem + "\n"});
       });
   const std::lock_guard lock(mutex_);

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <string_view>
 
+#include "tools/live/webrtc/detail/redundant_sound.h"
 #include "tools/live/webrtc/detail/where.h"
 #include "tools/live/webrtc/webrtc.h"
 
@@ -15,7 +16,7 @@ Error unknown(const std::string& part) {
   return make_error(Code::invalid_argument,
                     "'" + part +
                         "' is not an option of a WebRTC address; options are stun=HOST:PORT, "
-                        "turn=USER:PASSWORD@HOST:PORT and repeat=0..30");
+                        "turn=USER:PASSWORD@HOST:PORT, repeat=0..30 and audio-repeat=0..3");
 }
 
 // "HOST:PORT", also "[::1]:3478".
@@ -62,13 +63,14 @@ Result<Where> parse_where(const std::string& url) {
       where.options.stun = value;
     } else if (name == "turn" && value.find('@') != value.npos) {
       where.options.turn = value;
-    } else if (name == "repeat") {
+    } else if (name == "repeat" || name == "audio-repeat") {
+      const bool face = name == "repeat";
+      int& number = face ? where.options.repeat : where.options.audio_repeat;
       const auto [rest, problem] =
-          std::from_chars(value.data(), value.data() + value.size(), where.options.repeat);
+          std::from_chars(value.data(), value.data() + value.size(), number);
       const bool whole = problem == std::errc() && rest == value.data() + value.size();
-      if (!whole || where.options.repeat < 0 || where.options.repeat > kMostRepeat) {
-        return unknown(part);
-      }
+      const int most = face ? kMostRepeat : RedundantSound::kMostRepeats;
+      if (!whole || number < 0 || number > most) return unknown(part);
     } else {
       return unknown(part);
     }

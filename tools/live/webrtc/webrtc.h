@@ -28,6 +28,9 @@ struct WebRtcOptions {
   /// Number of previous units repeated in each message of `animeme.face`, 0..30: as many
   /// consecutive messages may be lost.
   int repeat = 5;
+  /// Number of previous packets of sound repeated with each (RFC 2198), 0..3; -1: by the loss that
+  /// a receiver reports, none without loss. Only for receivers that know it, as Chromium does.
+  int audio_repeat = -1;
 };
 
 /// Adds a server that helps to find a way, "stun:HOST:PORT" or "turn:USER:PASSWORD@HOST:PORT"; one
@@ -57,7 +60,7 @@ std::string page_of(const std::string& url);
 
 /// webrtc://HOST:PORT is the web server at http://HOST:PORT with mandatory `/whep`: start() fails
 /// without WebRTC. After the port: `?stun=HOST:PORT`, `turn=USER:PASSWORD@HOST:PORT`, `repeat=N`,
-/// `&` between them.
+/// `audio-repeat=N`, `&` between them.
 /// Errors: invalid_argument (address, options), those of make_web_sink(); those of start(): of
 /// make_peer_connections() and make_web_sink().
 Result<std::unique_ptr<web::WebSink>> make_webrtc_sink(const std::string& url,

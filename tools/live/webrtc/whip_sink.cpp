@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::chrono::seconds kServerPatience{10};
 constexpr std::chrono::milliseconds kEndAgain{60};
+constexpr int kOwnRedundant = 63;  // payload type of our offer, as browsers have it
 
 class WhipSink : public media::LiveSink {
  public:
@@ -55,7 +56,7 @@ Result<void> WhipSink::start(const media::LiveInfo& info) {
   if (info.face_config.empty() && !info.audio) {
     return make_error(Code::invalid_argument, "there is neither face nor sound");
   }
-  Result<Feed> feed = Feed::make(info, where_.options.repeat);
+  Result<Feed> feed = Feed::make(info, where_.options);
   if (!feed) return feed.error();
   Result<const Functions*> module = functions();
   if (!module) return module.error();
@@ -65,6 +66,7 @@ Result<void> WhipSink::start(const media::LiveInfo& info) {
   settings.sound = info.audio.has_value();
   settings.stun = where_.options.stun;
   settings.turn = where_.options.turn;
+  if (settings.sound && where_.options.audio_repeat != 0) settings.redundant = kOwnRedundant;
   if (!info.face_config.empty()) settings.channels = {kFace};
   const auto offered = std::make_shared<Offered>();
   receiver_.peer =
@@ -80,8 +82,11 @@ Result<void> WhipSink::start(const media::LiveInfo& info) {
     return make_error(Code::io, "no candidates were found; is the STUN or TURN server there?");
   }
   if (!offered->problem.empty()) return make_error(Code::io, offered->problem);
-  const HttpAnswer answer = module_->exchange(
-      {"POST", where_.address, token_, offered->sdp, double(kServerPatience.count())});
+  SoundTypes own = sound_types(offered->sdp);
+  if (settings.redundant >= 0) own.redundant = settings.redundant;
+  const HttpAnswer answer =
+      module_->exchange({"POST", where_.address, token_, with_redundant(offered->sdp, own),
+                         double(kServerPatience.count())});
   if (!answer.problem.empty()) {
     return make_error(Code::io, "the server does not answer: " + answer.problem);
   }
@@ -92,7 +97,8 @@ Result<void> WhipSink::start(const media::LiveInfo& info) {
                                          : ": " + answer.body.substr(0, 200)));
   }
   resource_ = answer.location;
-  receiver_.peer->answered(answer.body);
+  receiver_.types = sound_types(answer.body);
+  receiver_.peer->answered(without_redundant(answer.body, receiver_.types));
   return {};
 }
 

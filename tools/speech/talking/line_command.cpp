@@ -15,9 +15,10 @@ using Do = LineCommand::Do;
 using When = LineCommand::When;
 
 constexpr std::pair<std::string_view, Do> kDos[] = {
-    {"say", Do::say},     {"stop", Do::stop}, {"drop", Do::drop}, {"mark", Do::mark},
-    {"end", Do::end},     {"mood", Do::mood}, {"look", Do::look}, {"listen", Do::listen},
-    {"think", Do::think}, {"idle", Do::idle}, {"hear", Do::hear}};
+    {"say", Do::say},      {"stop", Do::stop}, {"drop", Do::drop}, {"mark", Do::mark},
+    {"end", Do::end},      {"mood", Do::mood}, {"look", Do::look}, {"listen", Do::listen},
+    {"think", Do::think},  {"idle", Do::idle}, {"hear", Do::hear}, {"pause", Do::pause},
+    {"resume", Do::resume}};
 constexpr std::pair<std::string_view, When> kWhens[] = {
     {"now", When::now}, {"next", When::next}, {"last", When::last}};
 

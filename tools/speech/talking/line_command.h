@@ -4,6 +4,7 @@
 ///     {"do": "stop"}                                          stop speaking, clear the queue
 ///     {"do": "drop"}                                          clear the queue
 ///     {"do": "say", "text": "Yes?", "when": "now", "id": "7"} stop, then say this
+///     {"do": "pause"}, "resume"                               speech halts, and goes on there
 ///     {"do": "mark", "id": "half"}                            report when this is reached
 ///     {"do": "mood", "mood": "joy:0.6"}                       the mood from now on
 ///     {"do": "look", "target": "20,-5"}                       where the eyes look (dam/behaviour)
@@ -42,7 +43,9 @@ struct LineCommand {
     listen,
     think,
     idle,
-    hear
+    hear,
+    pause,
+    resume
   };
   /// Position in the queue.
   enum class When : std::uint8_t {

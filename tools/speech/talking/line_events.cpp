@@ -13,8 +13,12 @@ namespace {
 
 using What = LineEvent::What;
 
-constexpr const char* kNames[] = {"queued", "started",   "word",    "phone",  "mark",
-                                  "done",   "cancelled", "stopped", "dropped"};
+constexpr const char* kNames[] = {"queued",    "started", "word",    "phone",  "mark",   "done",
+                                  "cancelled", "stopped", "dropped", "paused", "resumed"};
+
+// Added to times that are held: later than any time, and subtracted again without a loss that
+// shows.
+constexpr double kWaits = 1 << 30;
 
 double rounded(double seconds) { return std::round(seconds * 1e6) / 1e6; }
 
@@ -140,12 +144,49 @@ void LineEvents::add_word(std::uint64_t line, double start, const std::string& w
   const auto begun = std::find_if(begun_.begin(), begun_.end(),
                                   [line](const Begun& one) { return one.line == line; });
   if (begun == begun_.end()) return;
-  const double time = std::max(begun->start + start, time_);
+  double time = std::max(begun->start + start, time_);
+  if (time > held_) time += kWaits;
   if (time >= begun->end) return;  // all of it has been told
   LineEvent event{.what = What::word, .time = time, .line = line, .id = begun->id, .text = word};
   event.duration = duration;
   add(std::move(event));
   begun->words.emplace_back(time, word);
+}
+
+void LineEvents::hold(double time) {
+  held_ = time;
+  for (LineEvent& event : waiting_) {
+    if (event.time > time) event.time += kWaits;
+  }
+  for (Begun& begun : begun_) {
+    if (begun.end > time) begun.end += kWaits;
+    for (auto& [start, word] : begun.words) {
+      if (start > time) start += kWaits;
+    }
+  }
+}
+
+void LineEvents::go_on(double later) {
+  const double shift = later - kWaits;
+  std::vector<LineEvent> held;
+  std::erase_if(waiting_, [&](const LineEvent& event) {
+    if (event.time < kWaits) return false;
+    held.push_back(event);
+    return true;
+  });
+  for (Begun& begun : begun_) {
+    if (begun.end < kWaits) continue;
+    begun.end += shift;
+    begun.start += later;  // for words that become known later
+    for (auto& [start, word] : begun.words) {
+      if (start >= kWaits) start += shift;
+    }
+  }
+  held_ = std::numeric_limits<double>::infinity();
+  for (LineEvent& event : held) {
+    event.time += shift;
+    add(std::move(event));
+  }
 }
 
 void LineEvents::tell(double time) {

@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <set>
 #include <string>
 #include <utility>
@@ -36,6 +37,8 @@ struct LineEvent {
     cancelled,  ///< it, or its rest, will not be spoken
     stopped,    ///< a command was executed; `cancelled` events of the affected lines follow
     dropped,    ///< the same for "drop"
+    paused,     ///< speech halts; what is told of lines until it goes on comes later
+    resumed,    ///< it goes on
   };
   What what = What::queued;  ///< kind
   double time = 0;           ///< seconds, presentation time
@@ -67,6 +70,10 @@ class LineEvents {
   /// Adds the end of a text that is spoken in parts, unless it has ended. Its number is that of its
   /// first part.
   void cancel_parts(LineEvent event);
+  /// What is to come of lines behind `time` waits until go_on().
+  void hold(double time);
+  /// It comes, `later` seconds later than it would have.
+  void go_on(double later);
   /// Releases events up to and including `time`.
   void tell(double time);
   /// Events released since the last call.
@@ -82,7 +89,8 @@ class LineEvents {
   };
   std::deque<LineEvent> waiting_;  // ascending
   std::deque<Begun> begun_;
-  double time_ = 0;  // of the last tell()
+  double time_ = 0;                                        // of the last tell()
+  double held_ = std::numeric_limits<double>::infinity();  // instant of hold()
   std::vector<LineEvent> told_;
   std::set<std::uint64_t> ended_parts_;  // texts in parts that were cancelled
 };

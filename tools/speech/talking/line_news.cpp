@@ -9,6 +9,10 @@ LineEvent event_of(const LineNews& news, double time) {
       return {.what = LineEvent::What::stopped, .time = time};
     case LineNews::What::dropped:
       return {.what = LineEvent::What::dropped, .time = time};
+    case LineNews::What::paused:
+      return {.what = LineEvent::What::paused, .time = time};
+    case LineNews::What::resumed:
+      return {.what = LineEvent::What::resumed, .time = time};
     case LineNews::What::cancelled:
       event.what = LineEvent::What::cancelled;
       event.why = news.why;

@@ -7,8 +7,8 @@
 
 namespace animeme::speech {
 
-/// The event of news of the kinds queued, cancelled, stopped and dropped. `time`: seconds,
-/// presentation time.
+/// The event of news of the kinds queued, cancelled, stopped, dropped, paused and resumed. `time`:
+/// seconds, presentation time.
 LineEvent event_of(const LineNews& news, double time);
 
 /// Applies news that are for the face: look, activity, hear and mood. False: they are of other

@@ -117,7 +117,11 @@ Result<void> LineQueue::push(std::string line, double arrived, bool piece) {
       break;
     }
     case LineCommand::Do::end:
-      closed_ = true;
+      close_input(arrived);
+      break;
+    case LineCommand::Do::pause:
+    case LineCommand::Do::resume:
+      hold(command->what == LineCommand::Do::pause, arrived);
       break;
     case LineCommand::Do::look:
     case LineCommand::Do::listen:
@@ -259,6 +263,7 @@ void LineQueue::forget(const Entry& entry) {
 }
 
 void LineQueue::forget_all(LineNews::What what, const std::string& why, double at) {
+  if (what == LineNews::What::stopped) paused_ = false;
   LineNews news;
   news.what = what;
   news.line = number_;
@@ -286,9 +291,24 @@ void LineQueue::tell(LineNews::What what, const Entry& entry, const std::string&
   news_.push_back(std::move(news));
 }
 
-void LineQueue::close() {
+void LineQueue::close(double at) {
   const std::lock_guard lock(mutex_);
+  close_input(at);
+}
+
+// Who paused can no longer say that it goes on.
+void LineQueue::close_input(double at) {
   closed_ = true;
+  hold(false, at);
+}
+
+void LineQueue::hold(bool pause, double at) {
+  if (std::exchange(paused_, pause) == pause) return;
+  LineNews news;
+  news.what = pause ? LineNews::What::paused : LineNews::What::resumed;
+  news.line = number_;
+  news.at = at;
+  news_.push_back(std::move(news));
 }
 
 bool LineQueue::full() {

@@ -43,8 +43,8 @@ class LineQueue : public LineSource {
   /// Sound of an utterance as samples, which is a line named `id`; `last`: the utterance ends.
   /// Needs a PieceStream. Errors: those of PieceStream::add_sound().
   Result<void> push_sound(const std::string& id, media::Pcm sound, bool last, double arrived);
-  /// No more lines will come: the queue is spoken, then it ends.
-  void close();
+  /// No more lines will come: the queue is spoken, then it ends. A pause ends, too. `at`: instant.
+  void close(double at = 0);
   /// Whether the limit of 64 MB or 100000 lines is reached. push() still works.
   bool full();
   std::string last_id();      ///< of the line that was queued last; empty: none
@@ -112,6 +112,8 @@ class LineQueue : public LineSource {
   void forget(const Entry& entry);
   void keep_in_mind(const Entry& entry, const SpokenLine& line);
   void tell_words(std::uint64_t line, const Result<SpokenLine>& speech);
+  void close_input(double at);
+  void hold(bool pause, double at);
   void forget_all(LineNews::What what, const std::string& why, double at);
   Entries::iterator find(std::uint64_t line);
   std::optional<Job> look_for_job();
@@ -131,7 +133,7 @@ class LineQueue : public LineSource {
   std::string last_id_;
   std::vector<LineNews> news_;
   std::vector<std::string> warnings_;
-  bool closed_ = false, left_ = false;
+  bool closed_ = false, left_ = false, paused_ = false;
 };
 
 /// The speech of a job: LineMaker::make, make_in or pieces. A language that the maker does not have

@@ -111,7 +111,7 @@ struct VoiceLines::Impl {
       return true;
     }
     (void)queue.push(cutter.rest(), now);
-    queue.close();
+    queue.close(now);
     return false;
   }
 };

@@ -64,6 +64,8 @@ struct LineNews {
     activity,   ///< what the face does between lines: `activity`
     word,       ///< a word of a line that take() has returned became known: `text`, `start`
     hear,       ///< the other party begins or ends to speak: `voice`
+    paused,     ///< speech halts, and no line begins
+    resumed,    ///< it goes on
   };
   What what = What::queued;                      ///< kind
   std::uint64_t line = 0;                        ///< SpokenLine::line

@@ -51,6 +51,20 @@ void LiveSound::end_at(std::int64_t end, std::int64_t fade) {
   std::erase_if(pieces_, [](const Piece& piece) { return piece.samples.empty(); });
 }
 
+std::vector<float> LiveSound::rest() const {
+  std::vector<float> rest;
+  for (const Piece& piece : pieces_) {
+    const std::int64_t over = piece.start + std::int64_t(piece.samples.size());
+    const std::int64_t first = std::max(made_, piece.start);
+    if (over <= first) continue;
+    rest.resize(std::max(rest.size(), std::size_t(over - made_)), 0.0F);
+    for (std::int64_t at = first; at < over; ++at) {
+      rest[std::size_t(at - made_)] += piece.samples[std::size_t(at - piece.start)];
+    }
+  }
+  return rest;
+}
+
 // Whether a piece is heard at a sample.
 bool LiveSound::goes_on(std::int64_t at) const {
   return std::any_of(pieces_.begin(), pieces_.end(), [at](const Piece& piece) {

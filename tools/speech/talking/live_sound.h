@@ -25,6 +25,8 @@ class LiveSound {
   /// Fades everything out over `fade` samples to silence from sample `end`. Samples before made()
   /// do not change, which may shorten the fade.
   void end_at(std::int64_t end, std::int64_t fade);
+  /// The samples from made() on, up to the end of all pieces; they stay.
+  std::vector<float> rest() const;
   /// Number of samples, at `sample_rate`, already passed to the encoder.
   std::int64_t made() const { return made_; }
   /// Time of the next packet, in samples of the format.

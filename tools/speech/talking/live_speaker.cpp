@@ -128,7 +128,7 @@ bool LiveSpeaker::silent() const {
   const double sound_end = double(impl_->sound_end) / impl_->options.voice_rate;
   const double end = std::max({impl_->settled, sound_end, impl_->face_rests});
   const bool settled = impl_->frame_due() >= end + impl_->options.coding_delay;
-  return !impl_->waiting && !impl_->face.speaking() && settled;
+  return !impl_->waiting && !impl_->held && !impl_->face.speaking() && settled;
 }
 
 void LiveSpeaker::hear(std::unique_ptr<OtherVoice> other) { impl_->other = std::move(other); }
@@ -139,6 +139,8 @@ void LiveSpeaker::end(const std::string& why) {
   const double time = impl_->frame_due();
   impl_->lines->abandon(why);
   impl_->collect(time);
+  impl_->paused = false;
+  impl_->held.reset();
   if (impl_->waiting) impl_->cancel(impl_->waiting->line, why);
   impl_->waiting.reset();
   impl_->events.cut(time, std::numeric_limits<std::uint64_t>::max(), why);

@@ -34,7 +34,17 @@ struct LiveSpeaker::Impl {
   std::int64_t sound_end = 0;  // sample after the last line's sound
   double silent_since = -1;    // instant of the clock; -1: nothing was spoken yet
   double face_rests = 0;       // presentation time at which the last line's motion is over
-  double settled = 0;          // presentation time at which a mouth that was cut off is at rest
+  /// Speech that was halted.
+  struct Held {
+    dam::Script script;          // what is left to say
+    std::vector<float> samples;  // its sound
+    double at = 0;               // presentation time of its begin, had it gone on
+    std::int64_t length = 0;     // samples up to the end of the line
+  };
+  bool paused = false;
+  std::optional<Held> held;
+  std::optional<dam::Mood> mood;  // of the line that began last
+  double settled = 0;             // presentation time at which a mouth that was cut off is at rest
   LineEvents events;
   LineTraces traces;
   std::unique_ptr<OtherVoice> other;  // null: nobody is heard
@@ -53,6 +63,9 @@ struct LiveSpeaker::Impl {
   void take_line();
   void follow(const LineNews& news, double time);
   void stop(const LineNews& news, double time);
+  void pause();
+  void fall_silent(double at);
+  bool goes_on();
   Result<void> convert(media::Pcm& audio) const;
   std::int64_t lay(std::int64_t start, SpokenLine& line);
   std::int64_t place_after_the_last() const;

@@ -40,7 +40,7 @@ void LiveSpeaker::Impl::collect(double now) {
 
 // A line is taken when it can begin, so that all others can still be put in order.
 void LiveSpeaker::Impl::take_line() {
-  if (waiting || face.closing()) return;
+  if (waiting || paused || held || face.closing()) return;
   const bool speaking = face.speaking();
   if (speaking && end_of_speech() >= frame_due() + kLead) return;
   // What is not known yet may come before it is too late.
@@ -78,6 +78,8 @@ void LiveSpeaker::Impl::follow(const LineNews& news, double time) {
     return;
   }
   events.add(std::move(event));
+  if (news.what == LineNews::What::paused) return pause();
+  if (news.what == LineNews::What::resumed) paused = false;
   const bool all = news.what == LineNews::What::stopped;
   if (!all && news.what != LineNews::What::dropped) return;
   if (all) stop(news, time);
@@ -100,15 +102,60 @@ void LiveSpeaker::Impl::cancel(const SpokenLine& line, const std::string& why) {
 void LiveSpeaker::Impl::stop(const LineNews& news, double time) {
   const bool heard = sound && sound_end > sound->made();
   if (face.speaking() || heard) {
-    if (auto ok = face.cut(); !ok) warnings.push_back(ok.error().message);
-    const auto fade = std::llround(kSoundFade * options.voice_rate);
-    if (sound) sound->end_at(sound->made() + fade, fade);
-    settled = frame_due() + kSettling;
-    silent_since = news.at;  // what came with it or after it has not waited
-    sound_end = 0;
+    fall_silent(news.at);  // what came with it or after it has not waited
     traces.stop();
   }
+  paused = false;
+  held.reset();
   events.cut(time, news.line, "stopped");
+}
+
+void LiveSpeaker::Impl::fall_silent(double at) {
+  if (auto ok = face.cut(); !ok) warnings.push_back(ok.error().message);
+  const auto fade = std::llround(kSoundFade * options.voice_rate);
+  if (sound) sound->end_at(sound->made() + fade, fade);
+  settled = frame_due() + kSettling;
+  silent_since = at;
+  sound_end = 0;
+}
+
+// As stop(), but what is left to say is kept, with its sound and its events.
+void LiveSpeaker::Impl::pause() {
+  paused = true;
+  if (held) return;
+  const bool heard = sound && sound_end > sound->made();
+  if (!face.speaking() && !heard) return;
+  Held rest;
+  rest.at = std::max(frame_due(), sound_made());
+  rest.script = face.rest(rest.at - frame_due());
+  if (heard) {
+    rest.samples = sound->rest();
+    rest.length = sound_end - sound->made();
+  }
+  events.hold(rest.at);
+  fall_silent(clock->now());
+  held = std::move(rest);
+}
+
+// Lays what was held behind what has been made. False: it cannot begin yet.
+bool LiveSpeaker::Impl::goes_on() {
+  if (!held) return true;
+  if (face.closing()) return false;
+  Held rest = std::move(*held);
+  held.reset();
+  const double seconds = std::max(rest.script.duration(), double(rest.length) / options.voice_rate);
+  if (rest.script.phones.empty()) {
+    rest.script.phones.push_back({0, std::max(seconds, kOpening), std::string(dam::kSilence), {}});
+  }
+  const std::int64_t start = place_after_the_last();
+  const double wait = std::max(double(start) / options.voice_rate - frame_due(), 0.0);
+  if (auto shown = face.join(rest.script, wait, LineMoods{mood, {}}); !shown) {
+    warnings.push_back("the face rests: " + shown.error().message);
+  }
+  if (sound) sound->add(start, std::move(rest.samples));
+  sound_end = start + std::llround(seconds * options.voice_rate);
+  events.go_on(double(start) / options.voice_rate - rest.at);
+  return true;
 }
 
 // Where a line goes that joins the one before: at its end, if that has not been made.
@@ -152,6 +199,7 @@ bool LiveSpeaker::Impl::has_to_wait(const SpokenLine& line) const {
 
 // A line that cannot be shown is left out; the next one may be shown.
 void LiveSpeaker::Impl::begin_lines(double now) {
+  if (paused || !goes_on()) return;
   while (waiting && !has_to_wait(waiting->line)) {
     SpokenLine& line = waiting->line;
     LineTrace trace;
@@ -172,6 +220,7 @@ Result<void> LiveSpeaker::Impl::begin(SpokenLine& line, LineTrace& trace) {
   if (auto ok = convert(line.speech.audio); !ok) return ok;
   const dam::Script& script = line.speech.script;
   const LineMoods moods{line.mood, line.speech.moods};
+  mood = line.mood;
   Result<Line> shown = Line{};
   std::int64_t start = 0;
   if (line.joins) {

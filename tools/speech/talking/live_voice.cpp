@@ -72,6 +72,7 @@ struct LiveVoice::Impl {
   std::deque<double> loudness = {};  // sums of squares of frames, from `first_loud` on
   std::int64_t first_loud = 0;
   double spoke = -1;                        // seconds: when the voice was last heard
+  std::string warning;                      // the newest one, not told yet
   double closed_from = -1, closed_to = -1;  // seconds in which a command has closed the mouth
   bool closed = false;                      // likewise
   fap::Frame closing = rest;                // from which it began to
@@ -190,6 +191,10 @@ void LiveVoice::Impl::reach_marks(bool all) {
 
 void LiveVoice::Impl::follow(const LineNews& news, double time) {
   if (news.what == LineNews::What::word || direct_face(life, news)) return;
+  if (news.what == LineNews::What::paused || news.what == LineNews::What::resumed) {
+    warning = "a voice that comes from outside cannot be paused; who sends it can wait";
+    return;
+  }
   events.add(event_of(news, time));
   const bool stopped = news.what == LineNews::What::stopped;
   if (!stopped && news.what != LineNews::What::dropped) return;
@@ -410,9 +415,12 @@ void LiveVoice::end(const std::string& why) {
 }
 
 std::vector<std::string> LiveVoice::take_warnings() {
-  const auto error = impl_->pipe->take_error();
-  if (!error) return {};
-  return {error->message};
+  std::vector<std::string> warnings;
+  if (std::string told = std::exchange(impl_->warning, {}); !told.empty()) {
+    warnings.push_back(std::move(told));
+  }
+  if (const auto error = impl_->pipe->take_error()) warnings.push_back(error->message);
+  return warnings;
 }
 
 }  // namespace animeme::speech

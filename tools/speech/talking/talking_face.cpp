@@ -361,6 +361,18 @@ Result<void> TalkingFace::cut() {
   return {};
 }
 
+dam::Script TalkingFace::rest(double ahead) const {
+  if (!speaking()) return {};
+  const double from = signal_.rate.seconds(double(at_)) + ahead;
+  dam::Script rest;
+  for (dam::Phone phone : script_.phones) {
+    phone.start = std::max(phone.start - from, 0.0);
+    phone.end -= from;
+    if (phone.end > phone.start) rest.phones.push_back(std::move(phone));
+  }
+  return rest;
+}
+
 Result<Line> TalkingFace::join(const dam::Script& script, double start, const LineMoods& moods,
                                const dam::Prosody* prosody, bool goes_on) {
   if (!(start >= 0)) return make_error(Code::invalid_argument, "a line begins in the past");

@@ -89,6 +89,9 @@ class TalkingFace {
   /// after the previous frame, or up to 0.16 s if it would otherwise move faster than in speech.
   /// Errors: as say().
   Result<void> cut();
+  /// What is left to say from `ahead` seconds after the next frame on, 0 or more; its times count
+  /// from there. Without speech, or at its end: no phones.
+  dam::Script rest(double ahead) const;
   /// What the face does while it does not speak; thinking ends with the next line.
   void set_activity(dam::Activity activity);
   /// Whether the other party speaks at the next frame: dam::Behaviour::hear().

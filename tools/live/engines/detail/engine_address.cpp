@@ -25,7 +25,8 @@ constexpr std::array<Scheme, 3> kSchemes{{
      "rate=15..120, subject=NAME"},
     {"vmc://", Protocol::vmc, 39539, "rate=15..120, names=arkit|vrm0|vrm1, bones=on|off",
      "rate=15..120"},
-    {"osc://", Protocol::unified, 9000, "rate=15..120, prefix=NAME, gaze=on|off", "rate=15..120"},
+    {"osc://", Protocol::unified, 9000, "rate=15..120, prefix=NAME, gaze=on|off, binary=1..8",
+     "rate=15..120"},
 }};
 
 const Scheme* scheme_of(std::string_view url) {
@@ -71,6 +72,9 @@ std::string take_member(const std::string& name, const std::string& value, Engin
     const int rate = digits ? std::stoi(value) : 0;
     if (rate < kLeastRate || rate > kMostRate) return "rate is a whole number from 15 to 120";
     out.rate = rate;
+  } else if (name == "binary") {
+    if (value.size() != 1 || value < "1" || value > "8") return "binary is a number from 1 to 8";
+    out.binary = value.front() - '0';
   } else if (name == "names") {
     if (value != "arkit" && value != "vrm" && value != "vrm0" && value != "vrm1") {
       return "names are arkit, vrm0 or vrm1";

@@ -25,6 +25,7 @@ struct EngineAddress {
   bool bones = true;
   std::string prefix = "v2";
   bool gaze = true;
+  int binary = 0;  ///< bits of each parameter of an avatar, beside the float
 };
 
 /// Errors: invalid_argument.

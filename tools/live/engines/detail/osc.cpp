@@ -30,15 +30,18 @@ ByteVector bytes_of(const OscMessage& message) {
   ByteVector out;
   put_text(out, message.address);
   std::string types = ",";
-  for (const OscValue& value : message.values) types += "ifs"[value.index()];
+  for (const OscValue& value : message.values) {
+    const bool* flag = std::get_if<bool>(&value);
+    types += flag != nullptr ? (*flag ? 'T' : 'F') : "ifs"[value.index()];
+  }
   put_text(out, types);
   for (const OscValue& value : message.values) {
     if (const auto* text = std::get_if<std::string>(&value)) {
       put_text(out, *text);
     } else if (const auto* number = std::get_if<float>(&value)) {
       put(out, std::bit_cast<std::uint32_t>(*number), 4);
-    } else {
-      put(out, std::uint32_t(std::get<std::int32_t>(value)), 4);
+    } else if (const auto* whole = std::get_if<std::int32_t>(&value)) {
+      put(out, std::uint32_t(*whole), 4);
     }
   }
   return out;

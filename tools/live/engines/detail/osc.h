@@ -14,7 +14,8 @@
 
 namespace animeme::engines {
 
-using OscValue = std::variant<std::int32_t, float, std::string>;
+/// bool: true and false have types of their own; read_osc() gives them as numbers.
+using OscValue = std::variant<std::int32_t, float, std::string, bool>;
 
 struct OscMessage {
   std::string address;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <numbers>
 
@@ -184,18 +185,40 @@ double UnifiedParameter::value(const fap::ArkitFrame& frame) const {
   return sum;
 }
 
+bool UnifiedParameter::has_sign() const {
+  double least = constant;
+  for (const Term& term : terms) least += std::min(term.weight, 0.0);
+  return is_angle(*this) || least < -1e-6;
+}
+
 std::span<const UnifiedParameter> unified_parameters() {
   static const std::vector<UnifiedParameter> all = parameters_of_table();
   return all;
 }
 
-UnifiedWriter::UnifiedWriter(const std::string& prefix, bool gaze)
-    : begin_(std::string(kParameters) + prefix + "/"), gaze_(gaze) {}
+UnifiedWriter::UnifiedWriter(const std::string& prefix, bool gaze, int bits)
+    : begin_(std::string(kParameters) + prefix + "/"), gaze_(gaze), bits_(bits) {}
+
+// As VRCFaceTracking does it: rounded down, and all of them from 0.99999 on.
+void UnifiedWriter::write_bits(const UnifiedParameter& parameter, double value,
+                               std::vector<OscMessage>& out) const {
+  if (bits_ == 0 || is_angle(parameter)) return;
+  constexpr double kWhole = 0.99999;
+  const int most = (1 << bits_) - 1;
+  const double size = std::abs(value);
+  const int number = size > kWhole ? most : int(size * most);
+  for (int bit = 0; bit < bits_; ++bit) {
+    out.push_back({begin_ + parameter.name + std::to_string(1 << bit), {(number >> bit & 1) != 0}});
+  }
+  if (parameter.has_sign()) out.push_back({begin_ + parameter.name + "Negative", {value < 0}});
+}
 
 std::vector<OscMessage> UnifiedWriter::write(const fap::ArkitFrame& frame, double seconds) {
   std::vector<OscMessage> all;
   for (const UnifiedParameter& parameter : unified_parameters()) {
-    all.push_back({begin_ + parameter.name, {float(parameter.value(frame))}});
+    const double value = parameter.value(frame);
+    all.push_back({begin_ + parameter.name, {float(value)}});
+    write_bits(parameter, value, all);
   }
   if (gaze_) {
     all.push_back({std::string(kClosed), {float((frame[kBlinks[0]] + frame[kBlinks[1]]) / 2)}});

@@ -8,8 +8,12 @@
 #include <algorithm>
 #include <array>
 
+#include "fap/detail/text_scanner.h"
+
 namespace animeme::web {
 namespace {
+
+using fap::detail::lower_case;
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
@@ -17,13 +21,6 @@ std::string_view trimmed(std::string_view text) {
   while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
   while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
   return text;
-}
-
-std::string lower(std::string_view text) {
-  std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-  return out;
 }
 
 /// Calls `each` with the parts between commas, trimmed, until it is true.
@@ -85,7 +82,7 @@ OwnNames::OwnNames(const WebAddress& address, const std::vector<std::string>& mo
 
 void OwnNames::add(std::string_view name) {
   const bool v6 = name.find(':') != std::string_view::npos && name.front() != '[';
-  std::string own = v6 ? lower(name) : host_name(name);
+  std::string own = v6 ? lower_case(name) : host_name(name);
   if (!own.empty()) names_.insert(std::move(own));
 }
 
@@ -113,7 +110,7 @@ std::string host_name(std::string_view host) {
   if (!name.empty() && name.back() == '.') name.remove_suffix(1);
   const auto is_none = [](char c) { return (c >= 0 && c <= ' ') || c == 127; };
   if (std::any_of(name.begin(), name.end(), is_none)) return {};
-  return lower(name);
+  return lower_case(name);
 }
 
 bool origin_allowed(std::string_view origin, std::string_view host,
@@ -122,14 +119,14 @@ bool origin_allowed(std::string_view origin, std::string_view host,
   for (const std::string& each : allowed) {
     if (each == "*" || each == origin) return true;
   }
-  const std::string own = lower(host);
-  return !own.empty() && (lower(origin) == "http://" + own || lower(origin) == "https://" + own);
+  const std::string own = lower_case(host);
+  return !own.empty() && (lower_case(origin) == "http://" + own || lower_case(origin) == "https://" + own);
 }
 
 bool takes_gzip(std::string_view accept_encoding) {
   return any_of_list(accept_encoding, [](std::string_view part) {
     const std::size_t semicolon = part.find(';');
-    const std::string coding = lower(trimmed(part.substr(0, semicolon)));
+    const std::string coding = lower_case(trimmed(part.substr(0, semicolon)));
     if (coding != "gzip" && coding != "x-gzip" && coding != "*") return false;
     if (semicolon == std::string_view::npos) return true;
     std::string_view quality = trimmed(part.substr(semicolon + 1));

@@ -11,6 +11,8 @@
 #include "tools/formats/media/live/live.h"
 #include "tools/live/webrtc/detail/bundle.h"
 #include "tools/live/webrtc/detail/peer.h"
+#include "tools/live/webrtc/detail/redundant_sound.h"
+#include "tools/live/webrtc/webrtc.h"
 
 namespace animeme::webrtc {
 
@@ -24,13 +26,15 @@ struct Receiver {
   bool face = false, values = false;  ///< that channel is open and was begun with
   /// Of a face whose channel loses nothing: its number in Feed's encoders; 0: it may lose messages.
   std::uint64_t reliable = 0;
+  SoundTypes types;  ///< of its sound
+  LossGauge gauge;   ///< of its sound
 };
 
 /// Not thread safe.
 class Feed {
  public:
-  /// `repeat`: as WebRtcOptions. Errors: unsupported (the sound is not Opus).
-  static Result<Feed> make(const media::LiveInfo& info, int repeat);
+  /// Of `options` what is said of repetitions. Errors: unsupported (the sound is not Opus).
+  static Result<Feed> make(const media::LiveInfo& info, const WebRtcOptions& options);
 
   /// Takes a unit and says what it is, for those who come later, too.
   void push(const media::LiveUnit& unit, std::string_view values);
@@ -47,16 +51,19 @@ class Feed {
   const media::SendStats& stats() const { return stats_; }
 
  private:
-  Feed(const media::LiveInfo& info, std::vector<std::uint8_t> hello, int repeat);
+  Feed(const media::LiveInfo& info, std::vector<std::uint8_t> hello, const WebRtcOptions& options);
   void send(Receiver& receiver, const char* label, std::span<const std::uint8_t> message,
             bool text);
   bool begins(Receiver& receiver, const char* label, bool& known);
   void begin_reliable(Receiver& receiver);
   void give_reliable(Receiver& receiver);
+  void give_sound(Receiver& receiver);
 
   std::uint32_t timescale_;
   int sample_rate_ = 0;
   BundleWriter bundles_;
+  int audio_repeat_;
+  RedundantSound redundant_;
   media::SendStats stats_;
   // Of the newest unit.
   bool is_sound_ = false;

@@ -17,6 +17,7 @@ namespace {
 constexpr int kOwnPayloadType = 111;           // of our offers
 constexpr guint64 kMostWaiting = 64 * 1024;    // bytes of a channel
 constexpr std::chrono::seconds kPatience{10};  // without a sign of life
+constexpr std::chrono::milliseconds kLookForReports{500};
 
 using SdpPtr = std::unique_ptr<GstSDPMessage, decltype(&gst_sdp_message_free)>;
 
@@ -374,11 +375,46 @@ void GstPeer::goodbye() {
   for (const auto& [label, channel] : channels_) gst_webrtc_data_channel_close(channel.get());
 }
 
-void GstPeer::send_sound(std::span<const std::uint8_t> packet, std::uint32_t time) {
+/// What the sources of RTCP say of ours; reports come every few seconds.
+double GstPeer::reported_loss() {
+  if (over_ || sound_ == nullptr || Clock::now() - asked_ < kLookForReports) return loss_;
+  asked_ = Clock::now();
+  GstElement* rtp = gst_bin_get_by_name(GST_BIN(bin_), "rtpbin");
+  if (rtp == nullptr) return loss_;
+  GObject* session = nullptr;
+  g_signal_emit_by_name(rtp, "get-internal-session", 0, &session);
+  gst_object_unref(rtp);
+  if (session == nullptr) return loss_;
+  GstStructure* stats = nullptr;
+  g_object_get(session, "stats", &stats, nullptr);
+  g_object_unref(session);
+  if (stats == nullptr) return loss_;
+  const GValue* sources = gst_structure_get_value(stats, "source-stats");
+  const auto* all =
+      sources != nullptr && std::string_view(G_VALUE_TYPE_NAME(sources)) == "GValueArray"
+          ? static_cast<const GValueArray*>(g_value_get_boxed(sources))
+          : nullptr;
+  for (guint i = 0; all != nullptr && i < all->n_values; ++i) {
+    const GstStructure* source = gst_value_get_structure(&all->values[i]);
+    gboolean reports = FALSE;
+    guint about = 0, lost = 0;
+    if (gst_structure_get(source, "have-rb", G_TYPE_BOOLEAN, &reports, "rb-fractionlost",
+                          G_TYPE_UINT, &lost, nullptr) == FALSE ||
+        reports == FALSE) {
+      continue;
+    }
+    if (gst_structure_get_uint(source, "rb-ssrc", &about) != FALSE && about != ssrc_) continue;
+    loss_ = double(lost) / 256;
+  }
+  gst_structure_free(stats);
+  return loss_;
+}
+
+void GstPeer::send_sound(std::span<const std::uint8_t> packet, std::uint32_t time, bool redundant) {
   if (over_ || sound_ == nullptr) return;
   GstBuffer* buffer = gst_buffer_new_allocate(nullptr, 12 + packet.size(), nullptr);
   const std::uint8_t header[12] = {0x80,
-                                   std::uint8_t(payload_type_),
+                                   std::uint8_t(redundant ? settings_.redundant : payload_type_),
                                    std::uint8_t(sequence_ >> 8),
                                    std::uint8_t(sequence_),
                                    std::uint8_t(time >> 24),

@@ -38,7 +38,9 @@ class GstPeer : public Peer {
   bool has_channel(const std::string& label) override;
   bool is_reliable(const std::string& label) override;
   bool send(const std::string& label, std::span<const std::uint8_t> message, bool text) override;
-  void send_sound(std::span<const std::uint8_t> packet, std::uint32_t time) override;
+  void send_sound(std::span<const std::uint8_t> packet, std::uint32_t time,
+                  bool redundant) override;
+  double reported_loss() override;
   void goodbye() override;
 
  private:
@@ -60,6 +62,8 @@ class GstPeer : public Peer {
   GstElement* bin_ = nullptr;    // the pipeline's
   GstElement* sound_ = nullptr;  // the pipeline's; nullptr: there is none
   int payload_type_ = 0;
+  double loss_ = 0;            // by the newest report
+  Clock::time_point asked_{};  // when it was looked at
   std::uint32_t ssrc_ = 0;
   std::uint16_t sequence_ = 0;
   int copies_ = 60;       // of datagrams, that still go twice

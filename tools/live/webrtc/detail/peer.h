@@ -15,6 +15,7 @@ namespace animeme::webrtc {
 struct PeerSettings {
   std::string offer;   ///< session description of the other end; empty: we offer
   bool sound = false;  ///< there is Opus to send
+  int redundant = -1;  ///< RTP payload type of sound of RFC 2198; -1: none is sent
   std::string stun;    ///< "host:port", empty: none is asked
   std::string turn;    ///< "user:password@host:port", empty: none
   /// Data channels that are opened, where we offer. Elsewhere the other end opens those it wants.
@@ -42,7 +43,12 @@ class Peer {
   /// False: dropped, as there is no such channel, or too much waits.
   virtual bool send(const std::string& label, std::span<const std::uint8_t> message, bool text) = 0;
   /// One packet of Opus; `time` of its first sample, 48000 a second, modulo 2^32: the RTP time.
-  virtual void send_sound(std::span<const std::uint8_t> packet, std::uint32_t time) = 0;
+  /// `redundant`: it is a payload of RFC 2198 (redundant_sound.h) whose newest packet has this
+  /// time.
+  virtual void send_sound(std::span<const std::uint8_t> packet, std::uint32_t time,
+                          bool redundant) = 0;
+  /// Share of the packets of sound that the other end lost, 0..1, by its newest report.
+  virtual double reported_loss() = 0;
   /// Closes the channels, so that the other end knows soon; what was sent is on its way.
   virtual void goodbye() = 0;
 };
