@@ -226,7 +226,7 @@ TEST(EncodedAudio, RefusalsNameTheReason) {
 }
 
 // A share of the packets of a voice that have the one before them again: RFC 6716, section 4.2.4,
-// behind the table of contents of section 3.1.
+// and, of the table of contents in front, RFC 6716, section 3.1.
 double share_with_fec(const EncodedAudio& sound) {
   std::size_t with = 0;
   for (const AudioPacket& packet : sound.packets) {

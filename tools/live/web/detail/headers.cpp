@@ -120,7 +120,8 @@ bool origin_allowed(std::string_view origin, std::string_view host,
     if (each == "*" || each == origin) return true;
   }
   const std::string own = lower_case(host);
-  return !own.empty() && (lower_case(origin) == "http://" + own || lower_case(origin) == "https://" + own);
+  return !own.empty() &&
+         (lower_case(origin) == "http://" + own || lower_case(origin) == "https://" + own);
 }
 
 bool takes_gzip(std::string_view accept_encoding) {
