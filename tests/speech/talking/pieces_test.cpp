@@ -6,9 +6,12 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdlib>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "tests/support/folders.h"
 #include "tests/support/program.h"
 #include "tools/formats/media/audio.h"
 
@@ -313,6 +316,40 @@ TEST(Piece, LinesOfAnyLengthAreLeftOutOrKeptWhole) {
               testing::ElementsAre(testing::AllOf(HasSubstr("line 2"), HasSubstr("40000"))));
   lines->reset();
   ::close(ends[0]);
+}
+
+// As ElevenLabs sends it, cut anywhere.
+TEST(Piece, PartsOfAnMp3AreOneSound) {
+  const test::TempDir dir;
+  const std::string voice = std::string(test::kSourceFolder) + "/tools/release/samples/voice.wav";
+  const std::string line = "ffmpeg -v quiet -y -i '" + voice +
+                           "' -ar 44100 -b:a 128k -write_xing 0 " + "-id3v2_version 0 '" +
+                           dir.file("a.mp3") + "' >/dev/null 2>&1";
+  if (std::system(line.c_str()) != 0) GTEST_SKIP() << "ffmpeg cannot write MP3 (Debian: ffmpeg)";
+  std::ifstream file(dir.file("a.mp3"), std::ios::binary);
+  const std::string mp3{std::istreambuf_iterator<char>(file), {}};
+  const auto whole = media::read_audio(dir.file("a.mp3"));
+  ASSERT_TRUE(whole);
+  PieceStream stream({});
+  std::vector<float> sound;
+  for (std::size_t at = 0; at < mp3.size(); at += 1000) {
+    Json message = {{"audio", encoded(mp3.substr(at, 1000))}};
+    if (at == 0) message["output_format"] = "mp3_44100_128";
+    const auto taken = stream.add(message.dump());
+    ASSERT_TRUE(taken) << at << ": " << taken.error().describe();
+    if (taken->key == 0) continue;  // no frame is whole yet
+    const auto line_of_it = stream.make(taken->key);
+    ASSERT_TRUE(line_of_it) << line_of_it.error().describe();
+    const media::Pcm& audio = line_of_it->speech.audio;
+    EXPECT_EQ(audio.sample_rate, 44100);
+    sound.insert(sound.end(), audio.samples.begin(), audio.samples.end());
+  }
+  ASSERT_EQ(sound.size(), whole->samples.size());
+  double worst = 0;
+  for (std::size_t i = 0; i < sound.size(); ++i) {
+    worst = std::max(worst, double(std::abs(sound[i] - whole->samples[i])));
+  }
+  EXPECT_LT(worst, 1e-4);
 }
 
 }  // namespace pieces_test

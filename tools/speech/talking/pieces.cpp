@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "tools/formats/media/audio.h"
+#include "tools/formats/media/mp3_stream.h"
 #include "tools/formats/scripts/script_text.h"
 #include "tools/speech/talking/json_line_internal.h"
 #include "tools/speech/talking/piece_message_internal.h"
@@ -80,6 +81,7 @@ struct Utterance {
   std::vector<Labels> unread;
   std::deque<std::shared_ptr<Piece>> pieces;  // with sound, ascending
   std::vector<std::uint8_t> rest;             // of a sample that is not whole
+  std::optional<media::Mp3Stream> mp3;        // its sound is that
   // Of who makes lines:
   UtteranceTimes times;
   From times_from = From::unknown;
@@ -230,6 +232,10 @@ Result<media::Pcm> PieceStream::Impl::decode(PieceMessage& message, Utterance& u
   const double rate = sample_rate > 0 ? sample_rate : named.sample_rate;
   const bool unsaid = coding.empty() && rate == 0;
   const bool unknown = !coding.empty() && !named.coding;
+  if (utterance.mp3 || ((unsaid || unknown) && media::Mp3Stream::begins(message.bytes))) {
+    if (!utterance.mp3) utterance.mp3.emplace();
+    return utterance.mp3->push(message.bytes);
+  }
   if (is_file(message.bytes) || unsaid || unknown) {
     Result<media::Pcm> pcm = media::read_audio(message.bytes, limit);
     if (!pcm && unsaid) {

@@ -10,7 +10,8 @@
 /// Members, in any case, with or without "_":
 ///
 /// - audio, audio_base64, audio_content, data: the sound, base64: a file (WAV, MP3, Ogg, FLAC ...),
-///   or samples; of messages whose "type" names an audio delta: delta
+///   samples, or a part of an MP3, cut anywhere; of messages whose "type" names an audio delta:
+///   delta
 /// - file, audio_file: the sound as the path of a file
 /// - sample_rate: Hz of samples, 1000..384000; channels: 1..16, interleaved; encoding, format,
 ///   output_format: names of read_coding() (16 bits little-endian, f32le, mu-law, A-law). They hold
