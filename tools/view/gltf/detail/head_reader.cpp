@@ -5,6 +5,7 @@
 #include <set>
 
 #include "tools/view/gltf/detail/arms.h"
+#include "tools/view/gltf/detail/brow_clearance.h"
 #include "tools/view/gltf/detail/paint.h"
 #include "tools/view/gltf/detail/point_guess.h"
 #include "tools/view/gltf/detail/primitive.h"
@@ -65,6 +66,7 @@ class HeadReader {
     source_.points = guess_points({pieces_, shapes_, shape_of_name_});
     source_.upright = true;
     drop_far_joints();
+    keep_brows();
     write_shapes();
     write_pieces();
     std::vector<std::vector<std::string>> shape_names;
@@ -230,6 +232,16 @@ class HeadReader {
         (source_.neck_pivot->y > middle.y || source_.neck_pivot->z > middle.z)) {
       source_.neck_pivot.reset();
     }
+  }
+
+  void keep_brows() {
+    const std::optional<Vec3> left = place_of("3.1"), right = place_of("3.2");
+    if (!left || !right) return;
+    const std::size_t shapes = keep_brows_in_front(pieces_, {pieces_, shapes_, shape_of_name_},
+                                                   head::length(*left - *right));
+    if (shapes == 0) return;
+    source_.notes.push_back("the skin hid parts of the brows in " + std::to_string(shapes) +
+                            (shapes == 1 ? " shape" : " shapes") + "; they stay in front of it");
   }
 
   // Those whose places are what the head turns about.
