@@ -276,6 +276,38 @@ TEST(OwnScript, MarksOfSsmlHaveTimes) {
   EXPECT_GT(speech->marks[1].time, speech->marks[0].time + 0.6);
 }
 
+// espeak-ng leaves out breaks that are not between words.
+TEST(OwnScript, BreaksAroundTheWordsAreSilence) {
+  SKIP_WITHOUT_SCRIPTS();
+  const auto plain = speak("<speak>One.</speak>", "en");
+  const auto breaks = speak(
+      "<speak><mark name='a'/><break time='1s'/><mark name='b'/> <break time='500ms'/>"
+      "<p><s>One.</s></p><break time='2s'/><mark name='c'/></speak>",
+      "en");
+  if (!plain && plain.error().code == Code::unsupported) GTEST_SKIP() << plain.error().describe();
+  ASSERT_TRUE(plain && breaks);
+  const auto words_of = [](const Speech& speech) {
+    const std::vector<dam::Phone>& phones = speech.script.phones;
+    return std::pair(phones.front().end, phones.back().start);
+  };
+  const auto [first, last] = words_of(*plain);
+  const auto [later, end] = words_of(*breaks);
+  EXPECT_NEAR(later - first, 1.5, 0.01);
+  EXPECT_NEAR(end - last, 1.5, 0.03);
+  EXPECT_NEAR(breaks->audio.duration() - plain->audio.duration(), 3.5, 0.25)
+      << "the end of a sentence may have a pause of its own";
+  ASSERT_EQ(breaks->marks.size(), 3u);
+  EXPECT_NEAR(breaks->marks[0].time, later - 1.5, 0.05);
+  EXPECT_NEAR(breaks->marks[1].time, later - 0.5, 0.05);
+  EXPECT_NEAR(breaks->marks[2].time, end + 2, 0.3);
+
+  std::string long_breaks = "<speak>";
+  for (int i = 0; i < 61; ++i) long_breaks += "<break time='10s'/>";
+  const auto refused = speak(long_breaks + "One.</speak>", "en");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Code::out_of_range);
+}
+
 TEST(OwnScript, MoodsHaveTheTimesOfTheirWords) {
   SKIP_WITHOUT_SCRIPTS();
   const auto start_of = [](const Speech& speech, std::string_view word) {

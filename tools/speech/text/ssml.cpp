@@ -72,7 +72,7 @@ class SsmlReader {
   void close() {
     const double seconds = frames_.back().pause;
     frames_.pop_back();
-    if (seconds > 0) pause(seconds);
+    if (seconds > 0) pause(seconds, false);
   }
 
   void characters(std::string_view text) {
@@ -110,10 +110,11 @@ class SsmlReader {
     if (warned_.insert(text).second) document.warnings.push_back(text);
   }
 
-  void pause(double seconds) {
+  void pause(double seconds, bool is_break) {
     Item item;
     item.kind = ItemKind::pause;
     item.seconds = seconds;
+    item.is_break = is_break;
     item.manner = frames_.back().item.manner;
     document.items.push_back(std::move(item));
   }
@@ -204,7 +205,7 @@ class SsmlReader {
                          : strength.empty() ? break_strength("medium")
                                             : break_strength(strength);
     if (!seconds) warn("<break> with \"" + (time.empty() ? strength : time) + "\" is not known");
-    if (seconds && *seconds > 0) pause(*seconds);
+    if (seconds && *seconds > 0) pause(*seconds, true);
   }
 
   void read_mood(std::string_view element, const Attributes& attributes, std::string_view style,

@@ -53,6 +53,7 @@ struct Item {
   std::optional<dam::Mood> mood;  ///< of mstts:express-as and the like
   double mood_gain = 1;           ///< of emphasis: multiplies the intensity of any mood
   double seconds = 0;             ///< of a pause, 0..10
+  bool is_break = false;          ///< the pause is a break, not the end of a sentence or paragraph
   std::string name;               ///< of a mark
 };
 

@@ -129,14 +129,30 @@ class Maker {
   Result<void> document(const Document& document) {
     out_.markup = true;
     out_.warnings.insert(out_.warnings.end(), document.warnings.begin(), document.warnings.end());
-    std::size_t at = 0;
-    for (const Item& item : document.items) {
+    const auto speaks = [](const Item& item) {
+      const auto is_letter = [](char32_t c) { return c > U' ' && c != 0xA0; };
+      return item.kind == ItemKind::text &&
+             std::any_of(item.text.begin(), item.text.end(), is_letter);
+    };
+    const std::vector<Item>& items = document.items;
+    const auto speech = std::find_if(items.begin(), items.end(), speaks);
+    const auto rest = std::find_if(items.rbegin(), items.rend(), speaks).base();
+    std::size_t at = 0, marks_before = 0;
+    for (auto place = items.begin(); place != items.end(); ++place) {
+      const Item& item = *place;
       const std::size_t first = at;
       at += source_of(item).size();
+      const bool before = place < speech, behind = place >= rest;
+      if (item.kind == ItemKind::pause && item.is_break && (before || behind)) {
+        (before ? out_.lead_break : out_.tail_break) += item.seconds;
+        continue;
+      }
       if (item.kind == ItemKind::pause) add_pause(item.seconds);
       if (item.kind == ItemKind::mark) {
         tag("<mark name=\"" + std::to_string(out_.marks.size()) + "\"/>");
         out_.marks.push_back(item.name);
+        out_.mark_shifts.push_back(before ? out_.lead_break : out_.tail_break);
+        if (before) ++marks_before;
       }
       if (item.kind != ItemKind::text) continue;
       if (item.mood || item.mood_gain != 1) {
@@ -148,6 +164,8 @@ class Maker {
       if (!item.alias.empty() && said.size() > 0) said = say_instead(said, utf8(item.alias));
       if (auto done = add_text(item, said); !done) return done;
     }
+    // The voice puts those in front of all words behind the breaks there.
+    for (std::size_t i = 0; i < marks_before; ++i) out_.mark_shifts[i] -= out_.lead_break;
     close();
     return {};
   }
@@ -162,7 +180,6 @@ class Maker {
     manner_ = {};
   }
 
-  // A pause before the first word would be part of the initial silence.
   void add_pause(double seconds) {
     tag("<break time=\"" + std::to_string(int(seconds * 1000)) + "ms\"/>");
   }

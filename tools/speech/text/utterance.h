@@ -30,9 +30,15 @@ struct Utterance {
   bool mnemonics = false;  ///< [[ ]] in the input are phonemes
   /// the voices
   std::vector<Speaker> speakers;
-  std::vector<Stretch> stretches;     ///< ascending
-  std::vector<MoodPlace> moods;       ///< in `source`; the later ones inside of the earlier
-  std::vector<std::string> marks;     ///< mark number N of the input is called "N"
+  std::vector<Stretch> stretches;  ///< ascending
+  std::vector<MoodPlace> moods;    ///< in `source`; the later ones inside of the earlier
+  std::vector<std::string> marks;  ///< mark number N of the input is called "N"
+  /// Of each mark: seconds from where the voice puts it to where it is, because of the breaks
+  /// below.
+  std::vector<double> mark_shifts;
+  /// Seconds of the breaks in front of all words and behind them. The input does not have them:
+  /// espeak-ng leaves them out.
+  double lead_break = 0, tail_break = 0;
   std::vector<std::string> warnings;  ///< sentences for the user
 };
 

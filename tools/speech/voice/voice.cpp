@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t kMaxTextBytes = 400000;  // of UTF-8
 constexpr std::size_t kMaxCharacters = 100000;
+constexpr double kMostSilence = 600;  // seconds around the words
 
 // UTF-8 that espeak-ng can be trusted with: valid, no control characters.
 Result<std::string> clean_text(std::string_view text) {
@@ -102,13 +103,19 @@ Result<Speech> speak_text(std::string_view text, const VoiceOptions& options,
   Speech speech;
   speech.voice = utterance->speakers.front().name;
   speech.warnings = std::move(utterance->warnings);
+  const double lead = options.lead_silence + utterance->lead_break;
+  const double tail = options.tail_silence + utterance->tail_break;
+  if (lead + tail > kMostSilence) {
+    return make_error(Code::out_of_range,
+                      "more than ten minutes of breaks around the words; shorten them");
+  }
   EspeakJob job = job_of(*utterance, options);
   const bool sinks = sink.begin && sink.take;
   if (sinks) {
     job.sink.take = sink.take;
     job.sink.begin = [&](int sample_rate) -> Result<void> {
       if (auto begun = sink.begin(sample_rate); !begun) return begun;
-      return sink.take(silence(options.lead_silence, sample_rate));
+      return sink.take(silence(lead, sample_rate));
     };
   }
   auto spoken = run_voice(job);
@@ -116,8 +123,8 @@ Result<Speech> speak_text(std::string_view text, const VoiceOptions& options,
   const int rate = spoken->sample_rate;
   RawSpeech& raw = spoken->speech.front();
   if (job.markup) correct_ipa(raw, *utterance);
-  const std::vector<float> before = silence(options.lead_silence, rate);
-  const std::vector<float> after = silence(options.tail_silence, rate);
+  const std::vector<float> before = silence(lead, rate);
+  const std::vector<float> after = silence(tail, rate);
   if (sinks) {
     if (auto taken = sink.take(after); !taken) return taken.error();
   }

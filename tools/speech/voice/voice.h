@@ -86,6 +86,8 @@ struct Speech {
 /// amounts, and Chinese and Japanese characters are normalised (tools/speech/text). Words of the
 /// script are as written.
 ///
+/// Breaks of SSML in front of all words and behind them lengthen the silence there.
+///
 /// Letters of a script that no selected voice reads are an error, which suggests a voice. Words
 /// that a voice reads in another language, or spells, are reported in `languages` and `warnings`.
 ///

@@ -126,7 +126,8 @@ std::vector<SpeechMark> find_marks(const RawSpeech& raw, int sample_rate,
     if (event.kind != EventKind::mark) continue;
     const auto number = std::size_t(std::strtoul(event.ipa.c_str(), nullptr, 10));
     if (number >= utterance.marks.size()) continue;
-    marks.push_back({double(event.sample) / sample_rate, utterance.marks[number]});
+    const double time = double(event.sample) / sample_rate + utterance.mark_shifts[number];
+    marks.push_back({time, utterance.marks[number]});
   }
   return marks;
 }
