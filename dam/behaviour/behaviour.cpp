@@ -38,6 +38,14 @@ double closing(const FaceMoment& m, std::size_t side) {
   return m.blink * (1 - (m.upper_lid[side] + m.lower_lid[side]) / (kUpperLid + kLowerLid));
 }
 
+void raise_brows(const behaviour::BrowPose& brow, double amount, FaceMoment& m) {
+  for (std::size_t side = 0; side < 2; ++side) {
+    m.inner_brow[side] = amount * brow.inner[side];
+    m.middle_brow[side] = amount * brow.middle[side];
+    m.outer_brow[side] = amount * brow.outer[side];
+  }
+}
+
 double in_steps(double value, double step) { return step * std::round(value / step); }
 
 struct NamedPart {
@@ -82,11 +90,14 @@ std::string format_still(const StillParts& still) {
 
 std::vector<int> behaviour_faps(const BehaviourOptions& options) {
   std::vector<int> faps;
-  if (options.liveliness <= 0) return faps;
   const StillParts& still = options.still;
   const auto add = [&](bool moves, int first, int last) {
     for (int fap = first; moves && fap <= last; ++fap) faps.push_back(fap);
   };
+  if (options.liveliness <= 0) {
+    add(!still.brows, 31, 36);
+    return faps;
+  }
   add(!still.gaze || !still.blinks, 19, 22);
   add(!still.gaze, 23, 26);
   add(!still.brows, 31, 38);
@@ -148,7 +159,7 @@ struct Behaviour::Impl {
         gaze(from.seed, from.liveliness, from.end, from.look),
         blinks(from.seed, from.liveliness, from.end, frame),
         head(from.seed),
-        brows(from.seed) {
+        brows(from.seed, from.liveliness <= 0) {
     head.start_turned(gaze.head_goal());
   }
 
@@ -274,7 +285,10 @@ FaceMoment Behaviour::Impl::next() {
   const double time = now();
   ++count;
   FaceMoment m;
-  if (options.liveliness <= 0) return m;
+  if (options.liveliness <= 0) {
+    if (!options.still.brows) raise_brows(brows.at(time, mode(time)), fade(time), m);
+    return m;
+  }
   const behaviour::Mode doing = mode(time);
   const auto shift = gaze.advance(time, time + frame, doing);
   if (shift) {
@@ -294,12 +308,8 @@ FaceMoment Behaviour::Impl::next() {
   }
   if (!options.still.gaze) move_eyes(time, m);
   if (!options.still.brows) {
-    for (std::size_t side = 0; side < 2; ++side) {
-      m.inner_brow[side] = amount * brow.inner[side];
-      m.middle_brow[side] = amount * brow.middle[side];
-      m.outer_brow[side] = amount * brow.outer[side];
-      m.squeeze[side] = amount * brow.squeeze[side];
-    }
+    raise_brows(brow, amount, m);
+    for (std::size_t side = 0; side < 2; ++side) m.squeeze[side] = amount * brow.squeeze[side];
     // Lids move together, so that decoders may mirror them.
     const double raised = 0.5 * (m.middle_brow[0] + m.middle_brow[1]);
     for (double& lid : m.upper_lid) lid -= kLidOfBrow * std::max(0.0, raised);

@@ -56,7 +56,8 @@ enum class Activity : std::uint8_t {
 struct BehaviourOptions {
   fap::Rate rate = {25, 1};  ///< moments per second
   std::uint64_t seed = 1;    ///< another seed, another person at another time
-  /// Scales head and brows, and how often eyes wander and lids close: 0..2; 0: nothing moves.
+  /// Scales head and brows, and how often eyes wander and lids close: 0..2; 0: nothing moves but
+  /// brows that rise at the ends of questions.
   double liveliness = 1;
   StillParts still;  ///< parts that do not move
   Look look;         ///< where the eyes are at first
@@ -82,7 +83,8 @@ struct FaceMoment {
   double head_roll = 0;                    ///< towards the right shoulder
 };
 
-/// FAPs that move with these options, ascending; of 19..26, 31..38, 41, 42, 48..50, 61, 62.
+/// FAPs that move with these options, ascending; of 19..26, 31..38, 41, 42, 48..50, 61, 62;
+/// with liveliness 0 of 31..36.
 std::vector<int> behaviour_faps(const BehaviourOptions& options);
 
 /// The value of one of those FAPs, in its units. Lids meet exactly at blink 1: 1024 together.

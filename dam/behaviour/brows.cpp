@@ -22,7 +22,10 @@ double softened(double units) {
 
 }  // namespace
 
-Brows::Brows(std::uint64_t seed) : draw_(mixed(seed, 51)) { next_ = draw_.between(3, 9); }
+Brows::Brows(std::uint64_t seed, bool questions_only)
+    : draw_(mixed(seed, 51)), questions_only_(questions_only) {
+  next_ = draw_.between(3, 9);
+}
 
 void Brows::raise(One& g, double size) {
   const double left = size * std::clamp(1 + kSide * draw_.normal(), 0.7, 1.3);
@@ -92,7 +95,7 @@ void Brows::speak(const SpeechPlan& plan, double start, double now) {
     // The end of a question is raised as a whole.
     const bool late =
         phrase != plan.phrases.end() && phrase->question && one.end > phrase->end - 0.9;
-    if (!late) accent(one, start, now);
+    if (!late && !questions_only_) accent(one, start, now);
   }
   finish(std::numeric_limits<double>::infinity());
 }
@@ -133,7 +136,7 @@ BrowPose Brows::at(double time, Mode mode) {
     if (mode == Mode::thinking) next_ = time + draw_.between(0.1, 0.5);
     if (mode != Mode::speaking) next_ = std::max(next_, time + draw_.between(0.1, 0.5));
   }
-  if (mode != Mode::speaking && time >= next_) by_itself(time, mode);
+  if (mode != Mode::speaking && time >= next_ && !questions_only_) by_itself(time, mode);
   auto sum = gestures_.at(time);
   for (double& one : sum) one = softened(one);
   BrowPose pose;

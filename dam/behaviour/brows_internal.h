@@ -18,7 +18,8 @@ struct BrowPose {
 
 class Brows {
  public:
-  explicit Brows(std::uint64_t seed);
+  /// `questions_only`: they rise at questions, and do nothing else.
+  Brows(std::uint64_t seed, bool questions_only);
   /// As HeadMotion has it.
   void speak(const SpeechPlan& plan, double start, double now);
   void go_on(double now);
@@ -36,6 +37,7 @@ class Brows {
   void frown(One& gesture, double size);
 
   Draw draw_;
+  bool questions_only_;
   Mode mode_ = Mode::idle;
   Gestures<kChannels> gestures_;
   double last_apex_ = -10;

@@ -184,9 +184,19 @@ void move_shape(const LivingShape& shape, const FaceMoment& moment, double& valu
   }
 }
 
-void move_arkit(Signal& signal, const ArkitLayout& layout, const StillParts& still,
+// Brows that rise.
+std::vector<LivingShape> questions_only() {
+  std::vector<LivingShape> shapes =
+      living_shapes({.gaze = true, .head = true, .brows = false, .blinks = true});
+  std::erase_if(shapes, [](const LivingShape& shape) {
+    const std::string_view name = fap::kArkitNames[std::size_t(shape.channel)];
+    return name != "browInnerUp" && !name.starts_with("browOuterUp");
+  });
+  return shapes;
+}
+
+void move_arkit(Signal& signal, const ArkitLayout& layout, std::vector<LivingShape> shapes,
                 Behaviour& behaviour) {
-  std::vector<LivingShape> shapes = living_shapes(still);
   // Eyes that never open wide need not give way.
   std::erase_if(shapes, [&](const LivingShape& shape) {
     return shape.how == LivingShape::How::less && !layout.has[std::size_t(shape.channel)];
@@ -225,12 +235,18 @@ Result<IdleMotionReport> add_idle_motion(Signal& signal, const Script& script,
         Code::unsupported,
         "the controls are neither FAPs nor ARKit shapes, so blinks and nods cannot be "
         "added; use ARKit names such as eyeBlinkLeft");
-  if (options.liveliness <= 0) return IdleMotionReport{};
-  behaviour->speak(plan_speech(script, options.prosody));
+  const SpeechPlan plan = plan_speech(script, options.prosody);
+  const auto asks = [](const SpeechPhrase& phrase) { return phrase.question; };
+  const bool still = options.liveliness <= 0;
+  if (still &&
+      (options.still.brows || std::none_of(plan.phrases.begin(), plan.phrases.end(), asks))) {
+    return IdleMotionReport{};
+  }
+  behaviour->speak(plan);
   if (faps)
     move_faps(signal, known, behaviour_faps(wanted), *behaviour);
   else
-    move_arkit(signal, *arkit, options.still, *behaviour);
+    move_arkit(signal, *arkit, still ? questions_only() : living_shapes(options.still), *behaviour);
   return behaviour->counts();
 }
 

@@ -26,7 +26,7 @@ namespace animeme::dam {
 
 /// Options of add_idle_motion().
 struct IdleMotionOptions {
-  double liveliness = 1;             ///< as BehaviourOptions has it, 0..2; 0: nothing is added
+  double liveliness = 1;             ///< 0..2; 0: only what the text asks for, brows at questions
   std::uint64_t seed = 1;            ///< another seed, other motion
   StillParts still = {};             ///< parts that do not move
   Look look = {};                    ///< where the eyes look
@@ -38,7 +38,8 @@ using IdleMotionReport = BehaviourCounts;
 
 /// Adds channels for FAP 19 to 26 (lids and eyes), 31 to 38 (brows), 41, 42 (cheeks), 48 to 50
 /// (head), 61 and 62 (nostrils) to a signal of FAPs, in FAP units. Channels that the signal already
-/// has stay as they are; those of parts that are still are not added.
+/// has stay as they are; those of parts that are still are not added. With liveliness 0 nothing is
+/// added but FAP 31 to 36 (browInnerUp, browOuterUp) to a clip that has a question.
 ///
 /// A signal of ARKit shapes gets eyeBlink, eyeLook (in, out, up, down), browOuterUp, browDown and
 /// cheekSquint of both sides, browInnerUp, and headYaw, headPitch and headRoll (radians), in the

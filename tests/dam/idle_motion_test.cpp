@@ -206,8 +206,50 @@ TEST(IdleMotion, LivelinessScalesAndSwitchesOff) {
   const double usual = deviation(curve(moved({1, 2}), 48));
   EXPECT_GT(deviation(curve(moved({2, 2}), 48)), 1.5 * usual);
   EXPECT_LT(deviation(curve(moved({0.3, 2}), 48)), 0.6 * usual);
-  const Signal still = moved({0, 2});
-  EXPECT_EQ(still.names.size(), 1u);
+  IdleMotionOptions off{0, 2};
+  off.still.brows = true;
+  EXPECT_EQ(moved(off).names.size(), 1u);
+}
+
+// The text asks for them, as it asks for moods by emoji.
+TEST(IdleMotion, QuestionsRaiseBrowsWithoutLife) {
+  const Script script = talk(60);
+  const Signal questions = moved({0, 2});
+  std::set<int> faps;
+  for (const std::string& name : questions.names) faps.insert(fap_of_channel(name));
+  EXPECT_EQ(faps, (std::set<int>{3, 31, 32, 33, 34, 35, 36}));
+  const std::vector<double> brow = curve(questions, 33);
+  const auto phrases = plan_speech(script).phrases;
+  std::size_t raised = 0, asked = 0;
+  double still = 0;
+  for (const SpeechPhrase& phrase : phrases) {
+    if (phrase.end > 57) break;  // it ends at rest
+    const double highest = *std::max_element(brow.begin() + std::ptrdiff_t(50 * phrase.start),
+                                             brow.begin() + std::ptrdiff_t(50 * phrase.end));
+    asked += phrase.question ? 1 : 0;
+    raised += phrase.question && highest > 40 ? 1 : 0;
+  }
+  // Long before a question nothing moves.
+  for (std::size_t i = 1; i < phrases.size(); ++i) {
+    const bool near = phrases[i].question || phrases[i - 1].question;
+    if (near || phrases[i].end > 57) continue;
+    const double late = phrases[i].end - 0.01;
+    if (i + 1 < phrases.size() && phrases[i + 1].question && phrases[i + 1].end - late < 0.8)
+      continue;
+    still = std::max(still, std::abs(brow[std::size_t(50 * late)]));
+  }
+  EXPECT_GE(asked, 5u);
+  EXPECT_EQ(raised, asked);
+  EXPECT_EQ(still, 0);
+
+  Signal told = mouth(200);
+  ASSERT_TRUE(add_idle_motion(told, idle_motion_test::phrases(), {0, 1}));
+  EXPECT_EQ(told.names.size(), 1u) << "no question, no further FAPs";
+
+  Signal shapes = mouth(60 * 50, {"jawOpen"});
+  ASSERT_TRUE(add_idle_motion(shapes, script, {0, 2}));
+  EXPECT_EQ(shapes.names, (std::vector<std::string>{"jawOpen", "browInnerUp", "browOuterUpLeft",
+                                                    "browOuterUpRight"}));
 }
 
 TEST(IdleMotion, PartsStayStill) {

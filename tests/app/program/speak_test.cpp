@@ -460,12 +460,35 @@ TEST(Speak, StyleAndLife) {
   EXPECT_GT(largest_jaw(clip_of({"--style", "1.4"})), largest_jaw(plain));
   EXPECT_LT(largest_jaw(clip_of({"--style", "0.5"})), largest_jaw(plain));
   EXPECT_FALSE(plain.frames[0].mask[19]);
+  EXPECT_FALSE(plain.frames[0].mask[31]);
   EXPECT_NE(clip_of({"--no-idle-motion", "--articulate", "0"}).frames, plain.frames);
   const fap::Sequence alive = clip_of({});
   EXPECT_TRUE(alive.frames[0].mask[19] && alive.frames[0].mask[48]);
   EXPECT_EQ(largest_jaw(alive), largest_jaw(plain));
   EXPECT_NE(clip_of({"--seed", "5"}).frames, alive.frames);
   EXPECT_EQ(animeme({"speak", "--text", "A", "--style", "2", "-o", dir / "x.fap"}).exit_code, 2);
+}
+
+// What the text asks for is shown without idle motion, too.
+TEST(Speak, QuestionsWithoutLife) {
+  const TempDir dir;
+  for (const std::vector<std::string>& off : std::vector<std::vector<std::string>>{
+           {"--no-life"}, {"--liveliness", "0"}, {"--no-life", "--still", "brows"}}) {
+    const std::string path = dir / "clip.fap";
+    std::vector<std::string> arguments = {"speak", "--text", "Is it you?", "-o", path};
+    arguments.insert(arguments.end(), off.begin(), off.end());
+    const auto result = animeme(arguments);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const fap::Sequence clip = read_clip(path);
+    int highest = 0;
+    for (const fap::Frame& frame : clip.frames) highest = std::max(highest, frame.value[33]);
+    EXPECT_FALSE(clip.frames[0].mask[19] || clip.frames[0].mask[48]);
+    if (off.size() == 3) {
+      EXPECT_FALSE(clip.frames[0].mask[33]);
+    } else {
+      EXPECT_GT(highest, 40);
+    }
+  }
 }
 
 TEST(Speak, Moods) {

@@ -158,6 +158,31 @@ std::vector<fap::Frame> take(TalkingFace& face, int count) {
   return frames;
 }
 
+// Brows become part of the frames where a question asks for them.
+TEST_F(Face, QuestionsRaiseBrowsWithoutLife) {
+  TalkingFace face = open(false);
+  const auto highest = [&](const std::string& mark) {
+    const dam::Script script{{{0, 0.5, "SIL", ""},
+                              {0.5, 0.8, "S", "so" + mark},
+                              {0.8, 1.4, "OW", "so" + mark},
+                              {1.4, 3, "SIL", ""}}};
+    EXPECT_TRUE(face.say(script));
+    int most = 0;
+    for (int i = 0; i < 75; ++i) {
+      const auto frame = face.next();
+      EXPECT_TRUE(frame);
+      EXPECT_EQ(frame->mask, face.mask());
+      most = std::max(most, frame->value[33]);
+    }
+    return most;
+  };
+  EXPECT_EQ(highest("."), 0);
+  EXPECT_FALSE(face.mask()[33] || face.mask()[19]);
+  EXPECT_GT(highest("?"), 40);
+  EXPECT_TRUE(face.mask()[33]);
+  EXPECT_EQ(highest("."), 0);
+}
+
 TEST_F(Face, WithoutAMoodSpeechIsAsItWas) {
   TalkingFace face = open();
   ASSERT_TRUE(face.say(sentence()));

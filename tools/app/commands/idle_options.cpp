@@ -30,7 +30,8 @@ void add_idle_options(OptionTable& cli, IdleOptions& options, const char* note) 
       "Gaze, blinks, brows and a head that moves with the speech; " + std::string(note);
   cli.add("--idle-motion,.--life,!--no-idle-motion,!.--no-life", options.on, help.c_str());
   cli.add("--liveliness", options.motion.liveliness,
-          "Amount of idle motion; 0: none, 2: twice as much of head and brows")
+          "Amount of idle motion; 0: none (brows rise at question marks), 2: twice as much of head "
+          "and brows")
       ->value("0..2=1")
       ->between(0.0, dam::kMostLiveliness);
   cli.add("--still", {take_still, &options.motion.still},

@@ -410,9 +410,10 @@ Result<int> write_output(const SpeakOptions& options, dam::Signal signal,
     auto put = dam::speak_over(signal, spoken.script, *options.performance, settings);
     if (!put) return put.error();
     shown.over = std::move(*put);
-  } else if (lives) {
+  } else if (!plain || lives) {
+    if (!lives) idle.liveliness = 0;
     auto added = dam::add_idle_motion(signal, spoken.script, idle);
-    if (!added && options.idle.on.has_value()) return added.error();
+    if (!added && options.idle.on.value_or(false)) return added.error();
   }
   // The performance has moods of its own.
   const bool own_moods = !options.performance || !options.mood.empty();

@@ -328,7 +328,8 @@ typedef struct animeme_speak_options {
   double sharpness;     ///< 1; 0..3, quickness
   double articulation;  ///< -1; 0..2, clarity of vowels; below 0: that of the model
   double tail;          ///< 0; 0..60 seconds after the script
-  double idle_motion;   ///< 1; 0..2, liveliness; 0 and below: no idle motion. animeme_speak() only
+  double idle_motion;   ///< 1; 0..2, liveliness; 0: brows at "?" only; below: none. animeme_speak()
+                        ///< only
   uint64_t seed;        ///< 1; seed of the idle motion
   double look_ahead;    ///< -1; seconds, 0..60; below 0: unlimited. animeme_speech only
   /// "": neutral. NAME or NAME:INTENSITY, ended by 0: "joy", "anger:0.5", "thinking" ... (the names

@@ -80,7 +80,7 @@ animeme_status speak_clip(const dam::Model& model, std::string_view text,
   if (!signal) return fail(error, signal.error());
   const auto idle = idle_options(options);
   if (!idle) return fail(error, idle.error());
-  if (!(options.idle_motion <= 0)) {
+  if (!(options.idle_motion < 0)) {
     const auto added = dam::add_idle_motion(*signal, *script, *idle);
     // Whose rig is unknown moves by its own channels alone.
     if (!added && added.error().code != Code::unsupported) return fail(error, added.error());

@@ -54,13 +54,13 @@ Result<void> move_face(const dam::Model& model, Motion motion, Speech& speech) {
   auto signal = speech::move_face(model, speech.spoken, motion.synthesis);
   if (!signal) return signal.error();
   speech.signal = std::move(*signal);
-  if (motion.idle_motion.value_or(true)) {
-    const dam::Prosody prosody = audio ? voice::measure_prosody(*audio) : dam::Prosody{};
-    motion.idle.prosody = &prosody;
-    const auto added = dam::add_idle_motion(speech.signal, speech.spoken.script, motion.idle);
-    // Without being asked: models of other rigs do without.
-    if (!added && motion.idle_motion) return added.error();
-  }
+  const bool lives = motion.idle_motion.value_or(true);
+  const dam::Prosody prosody = lives && audio ? voice::measure_prosody(*audio) : dam::Prosody{};
+  motion.idle.prosody = &prosody;
+  if (!lives) motion.idle.liveliness = 0;
+  const auto added = dam::add_idle_motion(speech.signal, speech.spoken.script, motion.idle);
+  // Without being asked: models of other rigs do without.
+  if (!added && motion.idle_motion.value_or(false)) return added.error();
   const auto moody = dam::add_moods(speech.signal, speech.spoken.script,
                                     dam::MoodTrack(motion.mood, speech.spoken.moods));
   if (!moody && !motion.mood.neutral()) return moody.error();
@@ -265,7 +265,8 @@ style: intensity, 0 keeps the mouth at rest, 1 is as learned, 0..1.5.
 sharpness: quickness, 0 is the mean of sentences, 1 more as people, 0..3.
 articulation: how clearly vowels show, 0 is as learned, 0..2; None: 1 for the built-in model, 0 for others.
 closure: P, B and M close the lips, F and V reach the teeth.
-idle_motion: gaze, blinks, brows and head; None: where the controls of the model are known.
+idle_motion: gaze, blinks, brows and head; None: where the controls of the model are known;
+False: brows at question marks alone.
 seed: of the idle motion: another seed, other times of blinks.
 liveliness, still, look: its amount (0..2); parts without it ("gaze,head,brows,blinks"); where the
     eyes look: "camera", "away", "YAW,PITCH" in degrees, "X,Y,Z" in metres.

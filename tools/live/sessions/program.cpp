@@ -73,9 +73,10 @@ Result<Clip> spoken_clip(const ProgramOptions& options, fap::Rate rate, const to
     auto put = dam::speak_over(*signal, spoken->script, *options.over, over);
     if (!put) return put.error();
     if (options.mood.neutral()) spoken->moods.clear();  // the performance has its own
-  } else if (options.idle_motion) {
+  } else {
+    if (!options.idle_motion) idle.liveliness = 0;
     auto added = dam::add_idle_motion(*signal, spoken->script, idle);
-    if (!added) return added.error();
+    if (!added && options.idle_motion) return added.error();
   }
   auto moody = dam::add_moods(*signal, spoken->script, dam::MoodTrack(options.mood, spoken->moods));
   if (!moody && !options.mood.neutral()) return moody.error();

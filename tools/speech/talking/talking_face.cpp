@@ -188,16 +188,16 @@ Result<TalkingFace> TalkingFace::open(const dam::Model& model, const FaceOptions
   }
   if (auto ok = face.begin(silence(), false); !ok) return ok.error();
   face.mask_ = face.clip_.frames.front().mask;
-  if (options.idle_motion) {
-    const dam::BehaviourOptions wanted{options.synthesis.rate, options.idle.seed,
-                                       options.idle.liveliness, options.idle.still,
-                                       options.idle.look};
-    Result<dam::Behaviour> behaviour = dam::Behaviour::make(wanted);
-    if (!behaviour) return behaviour.error();
-    face.behaviour_ = std::move(*behaviour);
-    face.find_moving(face.mask_);
-    for (const int fap : face.moving_) face.mask_.set(std::size_t(fap));
-  }
+  const dam::BehaviourOptions wanted{options.synthesis.rate, options.idle.seed,
+                                     options.idle_motion ? options.idle.liveliness : 0,
+                                     options.idle.still, options.idle.look};
+  Result<dam::Behaviour> behaviour = dam::Behaviour::make(wanted);
+  if (!behaviour) return behaviour.error();
+  face.behaviour_ = std::move(*behaviour);
+  face.find_moving(face.mask_, wanted);
+  face.questions_only_ = wanted.liveliness <= 0;
+  for (const int fap : face.moving_)
+    if (!face.questions_only_) face.mask_.set(std::size_t(fap));
   if (options.over) {
     face.over_.emplace(options.over, options.keep, options.synthesis.rate);
     face.mask_ |= face.over_->faps();
@@ -210,13 +210,10 @@ Result<TalkingFace> TalkingFace::open(const dam::Model& model, const FaceOptions
 // Cheeks and nostrils, which move by half a millimetre, would cost half a kbit/s in streams with an
 // intra plane each second; moods move them. What a character has learned stays; shapes of ARKit,
 // which move lids and brows besides the mouth, are added to.
-void TalkingFace::find_moving(const fap::Mask& known) {
+void TalkingFace::find_moving(const fap::Mask& known, const dam::BehaviourOptions& wanted) {
   const bool faps =
       std::any_of(model_->controls.begin(), model_->controls.end(),
                   [](const auto& control) { return dam::fap_of_channel(control.name) != 0; });
-  dam::BehaviourOptions wanted;
-  wanted.liveliness = options_.idle.liveliness;
-  wanted.still = options_.idle.still;
   for (const int fap : dam::behaviour_faps(wanted)) {
     if (fap == 41 || fap == 42 || fap == 61 || fap == 62) continue;
     const bool turns = (fap >= 23 && fap <= 26) || (fap >= 48 && fap <= 50);
@@ -231,6 +228,11 @@ void TalkingFace::behave(fap::Frame& frame) {
   for (const int fap : moving_) {
     const auto n = std::size_t(fap);
     double value = dam::behaviour_value(moment, fap);
+    // Brows become part of the frames with the first question.
+    if (questions_only_ && !mask_[n]) {
+      if (value == 0) continue;
+      mask_.set(n);
+    }
     if (frame.mask[n]) value = combined(frame.value[n], value, fap, moment.blink);
     frame.mask.set(n);
     frame.value[n] = coded_value(value, fap);

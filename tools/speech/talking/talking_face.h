@@ -35,7 +35,8 @@ namespace animeme::speech {
 /// Options for speaking and idling.
 struct FaceOptions {
   dam::SynthesisOptions synthesis;  ///< `frames` and `tail` are not used
-  /// Gaze, blinks, brows, head (dam/behaviour/behaviour.h), without cheeks and nostrils.
+  /// Gaze, blinks, brows, head (dam/behaviour/behaviour.h), without cheeks and nostrils. Without it
+  /// brows rise at the ends of questions, unless `idle.still` has them.
   bool idle_motion = false;
   dam::IdleMotionOptions idle;  ///< of the idle motion; `prosody` is not used
   dam::Mood mood;               ///< at the beginning
@@ -114,7 +115,7 @@ class TalkingFace {
   Result<void> begin(const dam::Script& script, bool closing);
   Result<dam::Signal> synthesise(const dam::Script& script) const;
   Result<void> show(dam::Signal signal, std::size_t at);
-  void find_moving(const fap::Mask& known);
+  void find_moving(const fap::Mask& known, const dam::BehaviourOptions& wanted);
   void behave(fap::Frame& frame);
   Line line_from(std::size_t first, const fap::Frame& before) const;
   double now() const { return signal_.rate.seconds(double(number_)); }
@@ -138,8 +139,9 @@ class TalkingFace {
   dam::MoodBlend moods_;                     // in seconds from frame 0
   dam::MoodMouth mouth_;                     // of script_
   dam::MoodMouth::Shares shares_;            // as shown last
-  std::optional<dam::Behaviour> behaviour_;  // nothing: no idle motion
+  std::optional<dam::Behaviour> behaviour_;  // nothing before open() has ended
   std::vector<int> moving_;                  // FAPs of it
+  bool questions_only_ = false;              // idle motion is off
   std::optional<dam::PerformanceLoop> over_;
   bool accompanies_ = false;  // speech that others show
   double phrase_end_ = 0;     // of it, in seconds from frame 0
