@@ -86,18 +86,18 @@ TEST(Outputs, EndingsFitWhatIsWritten) {
   refused({"speak", "--text", "hi", "-o", "-"}, "must end in .mp4");
   refused({"speak", "--text", "hi", "-o", dir / "a.fap", "--save-script", "-"},
           ".TextGrid, .tsv, .pho, .vtt or .srt");
-  refused({"evaluate", "x", "y", "--picture", "-"}, "must end in .svg or .png");
+  refused({"evaluate", "x", "y", "--picture", "-"}, "must end in .svg, .pdf or .png");
   refused({"head", "woman", "-o", "-"}, ".fdp, .xmt, .glb or .obj");
   refused({"render", in, "--frame", "0", "-o", dir / "a"}, "must end in .png");
-  refused({"plot", in, "-o", dir / "a"}, "must end in .svg or .png");
+  refused({"plot", in, "-o", dir / "a"}, "must end in .svg, .pdf or .png");
   refused({"align", "--audio", in, "--transcript", "x", "-o", dir / "a"},
           ".TextGrid, .tsv, .pho, .vtt or .srt");
   refused({"receive", "udp://127.0.0.1:9", "-o", dir / "a"}, "must end in .fap");
   refused({"check", dir.path().string(), "--json", dir / "a.mp4"}, "must end in .json");
   refused({"check", dir.path().string(), "--junit", dir / "a.json"}, "must end in .xml");
-  refused({"plot", in, "-o", dir / "a.jpg"}, "must end in .svg or .png");
+  refused({"plot", in, "-o", dir / "a.jpg"}, "must end in .svg, .pdf or .png");
   refused({"head", "woman", "-o", dir / "a.stl"}, ".fdp, .xmt, .glb or .obj");
-  refused({"evaluate", "x", "y", "--picture", dir / "a.txt"}, "must end in .svg or .png");
+  refused({"evaluate", "x", "y", "--picture", dir / "a.txt"}, "must end in .svg, .pdf or .png");
   EXPECT_EQ(dir.count(), 0u);
   test::succeeds({"encode", in, "-o", "/dev/null"});
   test::succeeds({"encode", in, "-o", dir / "no_ending"});

@@ -81,7 +81,7 @@ TEST(Plot, RefusesWhatItCannotDraw) {
   write_clip(dir / "a.fap", 50, 200);
   const auto name = animeme({"plot", dir / "a.fap", "-o", dir / "a.jpg"});
   EXPECT_EQ(name.exit_code, 2);
-  EXPECT_THAT(name.err, HasSubstr(".svg or .png"));
+  EXPECT_THAT(name.err, HasSubstr(".svg, .pdf or .png"));
   const auto part = animeme({"plot", dir / "a.fap", "--from", "1", "--to", "0.5", "-o", "-"});
   EXPECT_EQ(part.exit_code, 2);
   EXPECT_THAT(part.err, HasSubstr("--to"));
@@ -123,6 +123,32 @@ TEST(Plot, PngByItsName) {
   }
   ASSERT_EQ(out.exit_code, 0) << out.err;
   EXPECT_THAT(slurp(dir / "a.png"), StartsWith("\x89PNG"));
+}
+
+TEST(Plot, ForPapers) {
+  const TempDir dir;
+  write_clip(dir / "a.fap", 50, 200);
+  const auto column = animeme({"plot", dir / "a.fap", "--faps", "3", "--width", "85", "--title",
+                               "One jaw", "--spectrum", "-o", "-"});
+  ASSERT_EQ(column.exit_code, 0) << column.err;
+  EXPECT_THAT(column.out, HasSubstr("width=\"85mm\""));
+  EXPECT_THAT(column.out, HasSubstr(">One jaw<"));
+  EXPECT_THAT(column.out, HasSubstr(">Frequency (Hz)<"));
+  EXPECT_EQ(count(column.out, "<polyline"), 2);
+  const auto pdf = animeme({"plot", dir / "a.fap", "--width", "85", "-o", dir / "a.pdf"});
+  ASSERT_EQ(pdf.exit_code, 0) << pdf.err;
+  EXPECT_THAT(slurp(dir / "a.pdf"), StartsWith("%PDF-1.4"));
+  const auto slide = animeme({"plot", dir / "a.fap", "--size", "960x540", "-o", "-"});
+  ASSERT_EQ(slide.exit_code, 0) << slide.err;
+  EXPECT_THAT(slide.out, HasSubstr("width=\"960.0\" height=\"540.0\""));
+  const auto low =
+      animeme({"plot", dir / "a.fap", "--faps", "3-30", "--size", "960x200", "-o", "-"});
+  EXPECT_EQ(low.exit_code, 2);
+  EXPECT_THAT(low.err, HasSubstr("they need a height of"));
+  EXPECT_EQ(animeme({"plot", dir / "a.fap", "--size", "960", "-o", "-"}).exit_code, 2);
+  EXPECT_EQ(
+      animeme({"plot", dir / "a.fap", "--width", "85", "--size", "960x540", "-o", "-"}).exit_code,
+      2);
 }
 
 TEST(Plot, UnknownFapsAreNamed) {

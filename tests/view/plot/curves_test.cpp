@@ -2,7 +2,12 @@
 #include <gmock/gmock.h>
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
+#include <vector>
 
 #include "tools/view/plot/clips.h"
 #include "tools/view/plot/curves.h"
@@ -124,7 +129,8 @@ TEST(PlotCurves, TheNameOfAFileTellsItsKind) {
   EXPECT_TRUE(plot::is_drawing("a.svg"));
   EXPECT_TRUE(plot::is_drawing("b.PNG"));
   EXPECT_TRUE(plot::is_drawing("-"));
-  EXPECT_FALSE(plot::is_drawing("a.pdf"));
+  EXPECT_TRUE(plot::is_drawing("a.pdf"));
+  EXPECT_FALSE(plot::is_drawing("a.gif"));
   const std::string svg = plot::curves_svg({panel_of({}, 1)}, {});
   const auto same = plot::drawing_bytes("a.svg", svg);
   ASSERT_TRUE(same);
@@ -136,6 +142,141 @@ TEST(PlotCurves, TheNameOfAFileTellsItsKind) {
   const auto bad = plot::drawing_bytes("bad.png", "no drawing");
   ASSERT_FALSE(bad);
   EXPECT_EQ(bad.error().where.file, "bad.png");
+}
+
+// The number behind `key` in the first element that has `what`.
+double number_of(const std::string& svg, const std::string& what, const std::string& key) {
+  const std::size_t at = svg.find(key + "=\"", svg.rfind('<', svg.find(what)));
+  return at == std::string::npos ? -1 : std::stod(svg.substr(at + key.size() + 2));
+}
+
+plot::Row row_named(const std::string& name, double low, double high) {
+  return {"FAP 3", name, "1/1024 MNS", {{{0, low}, {0.5, high}, {4, low}}}};
+}
+
+TEST(PlotLayout, PrintHasTheWidthOfAColumn) {
+  plot::Layout layout;
+  layout.width = 85 * 96 / 25.4;
+  layout.shown_width = "85mm";
+  layout.title = "Jaw & lips";
+  const std::string svg = plot::curves_svg(
+      {panel_of({row_named("open_jaw", -38, 195), row_named("stretch_l_cornerlip_o", 0, 7)}, 4)},
+      {"measured.fap", "made.fap"}, layout);
+  EXPECT_THAT(svg, HasSubstr("width=\"85mm\""));
+  EXPECT_THAT(svg, HasSubstr("viewBox=\"0 0 321.3 "));
+  EXPECT_THAT(svg, HasSubstr(">Jaw &amp; lips<"));
+  EXPECT_THAT(svg, HasSubstr(">stretch_l_cornerlip_o (1/1024 MNS)<"));
+  EXPECT_THAT(svg, Not(HasSubstr("font-size=\"12\" font-weight=\"bold\">FAP")));
+  // Letters are 8 points high: 10.67 of 96 pixels an inch.
+  EXPECT_THAT(svg, HasSubstr("font-size=\"10.67\""));
+}
+
+// Ticks of values are a letter's height apart, those of time a number's width.
+TEST(PlotLayout, LabelsKeepApart) {
+  for (const double millimetres : {40.0, 85.0, 178.0}) {
+    for (const double seconds : {0.7, 4.0, 45.0, 599.0}) {
+      plot::Layout layout;
+      layout.width = millimetres * 96 / 25.4;
+      const std::string svg = plot::curves_svg(
+          {panel_of({row_named("open_jaw", -380, 1950), row_named("raise_b_midlip", -3, 4)},
+                    seconds)},
+          {}, layout);
+      std::map<std::string, std::vector<double>> ticks;  // ends of words by their line or column
+      for (std::size_t at = svg.find("<text"); at != std::string::npos;
+           at = svg.find("<text", at + 1)) {
+        const std::string tag = svg.substr(at, svg.find("</text>", at) - at);
+        const std::string text = tag.substr(tag.find('>') + 1);
+        const double x = number_of(tag, "<text", " x"), y = number_of(tag, "<text", " y");
+        if (tag.find("\"end\"") != std::string::npos && x < 60)
+          ticks["values"].push_back(y);
+        else if (tag.find("\"middle\"") != std::string::npos && text.find('s') == text.npos)
+          ticks["times"].push_back(x);
+      }
+      std::sort(ticks["values"].begin(), ticks["values"].end());
+      EXPECT_GE(ticks["values"].size(), 4u);
+      for (std::size_t i = 1; i < ticks["values"].size(); ++i)
+        EXPECT_GE(ticks["values"][i] - ticks["values"][i - 1], 8) << millimetres;
+      for (std::size_t i = 1; i < ticks["times"].size(); ++i)
+        EXPECT_GE(ticks["times"][i] - ticks["times"][i - 1], 30) << millimetres << " " << seconds;
+    }
+  }
+}
+
+TEST(PlotLayout, SizeIsKept) {
+  plot::Layout layout;
+  layout.width = 640;
+  layout.height = 300;
+  const std::vector<plot::Panel> panels = {
+      panel_of({row_named("a", 0, 1), row_named("b", 0, 1)}, 4)};
+  const std::string svg = plot::curves_svg(panels, {"x"}, layout);
+  EXPECT_THAT(svg, HasSubstr("width=\"640.0\" height=\"300.0\""));
+  const double least = plot::least_height(panels, {"x"}, layout);
+  layout.height = least;
+  EXPECT_NEAR(number_of(plot::curves_svg(panels, {"x"}, layout), "<svg", "height"), least, 0.06);
+}
+
+TEST(PlotLayout, ARowMayHaveAScaleOfItsOwn) {
+  plot::Layout layout;
+  layout.own_scales = true;
+  const std::string svg =
+      plot::curves_svg({panel_of({row_named("a", 0, 900), row_named("b", 0, 4)}, 4)}, {}, layout);
+  EXPECT_EQ(count(svg, ">800<"), 1u);
+  EXPECT_EQ(count(svg, ">3<"), 1u);
+  // Long names have room beside the ticks.
+  const std::string named =
+      plot::curves_svg({panel_of({row_named("stretch_l_cornerlip_o", 0, 900)}, 4)}, {});
+  EXPECT_GT(number_of(named, ">800<", "x") - 4 * 11 * 0.64, 8 + 11 * 0.55 * 21);
+}
+
+TEST(PlotClips, SpectraShowTheFrequencyOfAMotion) {
+  plot::TimedClip clip{{{25, 1}, {}, "clip"}, 0};
+  for (int i = 0; i < 250; ++i) {
+    fap::Frame frame;
+    frame.number = i;
+    frame.set(3, int(std::lround(100 * std::sin(2 * 3.14159265 * 3 * i / 25.0))));
+    frame.set(5, 7);
+    clip.clip.frames.push_back(frame);
+  }
+  const plot::Row row = plot::spectrum_row(3, {clip}, 12.5);
+  ASSERT_EQ(row.curves.size(), 1u);
+  const auto peak = std::max_element(row.curves[0].begin(), row.curves[0].end(),
+                                     [](auto& a, auto& b) { return a.second < b.second; });
+  EXPECT_NEAR(peak->first, 3, 0.01);
+  // The power of the sine is 5000; its density is what it has a hertz.
+  double power = 0;
+  for (const auto& [hertz, level] : row.curves[0]) power += std::pow(10, level / 10) * 0.25;
+  EXPECT_NEAR(power, 5000, 150);
+  const plot::Row still = plot::spectrum_row(5, {clip}, 12.5);
+  for (const auto& [hertz, level] : still.curves[0]) EXPECT_EQ(level, -20) << hertz;
+  clip.clip.frames.resize(2);
+  EXPECT_THAT(plot::spectrum_row(3, {clip}, 12.5).curves[0], IsEmpty());
+}
+
+TEST(PlotPdf, HasTheLinesAndTextsOfTheDrawing) {
+  plot::Layout layout;
+  layout.width = 85 * 96 / 25.4;
+  layout.shown_width = "85mm";
+  const std::string svg = plot::curves_svg({panel_of({row_named("open_jaw", 0, 195)}, 4)},
+                                           {"a (b) \xC3\xA9 \xE2\x82\xAC"}, layout);
+  const auto bytes = plot::drawing_bytes("a.pdf", svg);
+  ASSERT_TRUE(bytes) << bytes.error().describe();
+  const std::string pdf(bytes->begin(), bytes->end());
+  EXPECT_THAT(pdf, StartsWith("%PDF-1.4\n"));
+  EXPECT_THAT(pdf, EndsWith("%%EOF\n"));
+  EXPECT_THAT(pdf, HasSubstr("/MediaBox [0 0 240.94 "));  // 85 mm in points
+  EXPECT_THAT(pdf, HasSubstr("(open_jaw \\(1/1024 MNS\\)) Tj"));
+  EXPECT_THAT(pdf, HasSubstr("(a \\(b\\) \xE9 ?) Tj"));
+  EXPECT_EQ(count(pdf, " Tj"), count(svg, "<text"));
+  EXPECT_EQ(count(pdf, " S\n"), count(svg, "<line") + count(svg, "<polyline"));
+  // The table at the end has the place of each object.
+  const std::size_t table = std::stoul(pdf.substr(pdf.find("startxref\n") + 10));
+  ASSERT_EQ(pdf.substr(table, 5), "xref\n");
+  for (int i = 1; i <= 6; ++i) {
+    const std::size_t at = std::stoul(pdf.substr(table + 9 + 20 * std::size_t(i), 10));
+    EXPECT_EQ(pdf.substr(at, 7), std::to_string(i) + " 0 obj") << i;
+  }
+  EXPECT_FALSE(plot::drawing_bytes("a.pdf", "no drawing"));
+  EXPECT_FALSE(plot::drawing_bytes("a.pdf", "<svg width=\"3\" height=\"4\"></svg>"));
 }
 
 TEST(PlotClips, RowsHaveACurveAClip) {

@@ -102,8 +102,9 @@ void add_options(OptionTable& cli, EvaluateOptions& options) {
   cli.add("--codec", options.codec, "Print the error of the codec separately, and its bit rate");
   add_coding_options(cli, options.stream);
   for (const char* name : {"--quant", "--rms", "--kbps"}) cli.get(name)->needs("--codec");
-  cli.add("--picture", options.picture, "Plot the best, median and worst sentence, .svg or .png")
-      ->output(".svg .png", OutputKind::file);
+  cli.add("--picture", options.picture,
+          "Plot the best, median and worst sentence, .svg, .pdf or .png")
+      ->output(".svg .pdf .png", OutputKind::file);
   cli.add("--report", options.report,
           "Write a report page with all results and three sentences on the head: .html")
       ->output(".html .htm", OutputKind::file);

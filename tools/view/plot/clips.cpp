@@ -33,6 +33,50 @@ std::string unit_of(int fap) {
   return "1/1024 " + std::string(fap::unit_name(unit));
 }
 
+// Of equally spaced values, over the frequency.
+Points spectrum(const std::vector<double>& values, double rate, double most) {
+  constexpr double kSeconds = 4, kLeast = 0.1, kFloor = -20;
+  const std::size_t length =
+      std::min(values.size(), std::size_t(std::max(std::lround(kSeconds * rate), 1L)));
+  if (double(length) < kLeast * rate || length < 4) return {};
+  std::vector<double> window(length), power(length / 2 + 1, 0.0);
+  double energy = 0;
+  for (std::size_t i = 0; i < length; ++i) {
+    window[i] = 0.5 - 0.5 * std::cos(2 * std::numbers::pi * (double(i) + 0.5) / double(length));
+    energy += window[i] * window[i];
+  }
+  // Of all angles that there are.
+  std::vector<double> sine(length), cosine(length);
+  for (std::size_t i = 0; i < length; ++i) {
+    sine[i] = std::sin(2 * std::numbers::pi * double(i) / double(length));
+    cosine[i] = std::cos(2 * std::numbers::pi * double(i) / double(length));
+  }
+  std::size_t count = 0;
+  for (std::size_t first = 0; first + length <= values.size(); first += (length + 1) / 2) {
+    double mean = 0;
+    for (std::size_t i = 0; i < length; ++i) mean += values[first + i] / double(length);
+    for (std::size_t k = 1; k < power.size(); ++k) {
+      double re = 0, im = 0;
+      for (std::size_t i = 0, angle = 0; i < length; ++i, angle = (angle + k) % length) {
+        const double value = window[i] * (values[first + i] - mean);
+        im += value * sine[angle];
+        re += value * cosine[angle];
+      }
+      power[k] += re * re + im * im;
+    }
+    ++count;
+  }
+  Points points;
+  for (std::size_t k = 1; k < power.size(); ++k) {
+    const double hertz = double(k) * rate / double(length);
+    if (hertz > most + 1e-9) break;
+    const bool last = 2 * k == length;
+    const double density = (last ? 1 : 2) * power[k] / (energy * rate * double(count));
+    points.emplace_back(hertz, std::max(kFloor, 10 * std::log10(std::max(density, 1e-9))));
+  }
+  return points;
+}
+
 }  // namespace
 
 Row fap_row(int fap, const std::vector<TimedClip>& clips) {
@@ -44,6 +88,20 @@ Row fap_row(int fap, const std::vector<TimedClip>& clips) {
                                  [](const auto& point) { return !std::isnan(point.second); });
   }
   if (!there) row.subtitle += ", absent";
+  return row;
+}
+
+Row spectrum_row(int fap, const std::vector<TimedClip>& clips, double most) {
+  Row row{"FAP " + std::to_string(fap), std::string(fap::info(fap).name), "dB", {}};
+  for (const TimedClip& clip : clips) {
+    std::vector<double> values;
+    double last = 0;
+    for (const auto& [time, value] : points_of(fap, clip)) {
+      if (!std::isnan(value)) last = value;
+      values.push_back(last);
+    }
+    row.curves.push_back(spectrum(values, clip.clip.rate.frames_per_second(), most));
+  }
   return row;
 }
 

@@ -39,12 +39,27 @@ struct Row {
 /// Rows over one time axis.
 struct Panel {
   std::string heading;                  ///< empty: none
+  std::string axis = "Time (s)";        ///< title of the axis
   double begin = 0;                     ///< seconds; start of the axis
   double seconds = 0;                   ///< end of the axis
   const dam::Script* script = nullptr;  ///< phones in the background; nullptr: none
   bool names_below = false;             ///< phone names are below the rows, not above
   std::vector<Row> rows;                ///< from the top
 };
+
+/// The form of a plot.
+struct Layout {
+  std::string title;  ///< above all; empty: none
+  double width = 0;   ///< pixels of 1/96 inch, 120 or more; 0: by the length, see curves_svg()
+  double height = 0;  ///< pixels; 0: by the rows
+  bool own_scales = false;  ///< each row has a scale of its own, also within a unit
+  /// With a width: the picture's width in its file, such as "85mm" or "1004"; empty: in pixels.
+  std::string shown_width;
+};
+
+/// The least height of a picture with these panels, in a layout that has a width.
+double least_height(const std::vector<Panel>& panels, const std::vector<std::string>& legend,
+                    const Layout& layout);
 
 /// Maximum length of a plot, seconds.
 inline constexpr double kLongest = 600;
@@ -54,13 +69,19 @@ inline constexpr double kLongest = 600;
 /// pixels wide, with phones 320; less in long clips, which are 2400 pixels wide, with phones 8000,
 /// and never less than 19 a second; more in short ones, which are 600 pixels wide. A phone without
 /// room for its name has none.
-std::string curves_svg(const std::vector<Panel>& panels, const std::vector<std::string>& legend);
+///
+/// A layout with a width is for print and slides: letters are 8 points high, names of rows lie
+/// above their curves, phones without room have no name, and ticks keep apart.
+///
+/// Axes of panels that have another title begin and end with those panels.
+std::string curves_svg(const std::vector<Panel>& panels, const std::vector<std::string>& legend,
+                       const Layout& layout = {});
 
-/// Whether drawing_bytes() supports this file: .svg, .png, or "-" (SVG).
+/// Whether drawing_bytes() supports this file: .svg, .pdf, .png, or "-" (SVG).
 bool is_drawing(const std::string& path);
 
-/// The contents of a file of this name: PNG for .png, else the SVG itself. Errors: those of
-/// media::svg_to_png(), with the path.
+/// The contents of a file of this name: PNG for .png, PDF for .pdf (pdf.h), else the SVG itself.
+/// Errors: those of media::svg_to_png(), with the path.
 Result<std::vector<std::uint8_t>> drawing_bytes(const std::string& path, const std::string& svg);
 
 }  // namespace animeme::plot
