@@ -133,6 +133,9 @@ TEST(Render, JpegAndWebp) {
   for (const std::string& file : {still, moving}) EXPECT_EQ(file.substr(8, 4), "WEBP");
   EXPECT_EQ(still.find("ANIM"), std::string::npos);
   EXPECT_NE(moving.find("ANMF"), std::string::npos);
+  EXPECT_EQ(begins("c.gif", {}).substr(0, 6), "GIF89a");
+  EXPECT_EQ(animeme({"render", clip(), "--frame", "0", "-o", dir / "d.gif"}).exit_code, 2);
+  EXPECT_EQ(animeme({"render", clip(), "--background", "none", "-o", dir / "e.gif"}).exit_code, 2);
 }
 
 TEST(Render, ContainersAreFaces) {

@@ -274,10 +274,10 @@ Result<int> run(const RenderOptions& options) {
 void add_options(OptionTable& cli, RenderOptions& options) {
   cli.add("input", options.input, "FAP text, FBA stream, container or table of curves");
   cli.add("-o,--output", options.output,
-          "File to write: .mp4 or .mkv (H.264), .webm (VP9), .webp (animated, silent); a "
+          "File to write: .mp4 or .mkv (H.264), .webm (VP9), .webp or .gif (animated, silent); a "
           "still or sheet as .png, .jpg or .webp (with --time and the like); frame_%04d.png, a "
           "picture a frame; - is PNG on standard output")
-      ->output(".png .jpg .jpeg .webp .mp4 .webm .mkv", OutputKind::file_or_dash)
+      ->output(".png .jpg .jpeg .webp .gif .mp4 .webm .mkv", OutputKind::file_or_dash)
       ->required();
   cli.add("--shapes", options.shapes,
           "Instead of a file: neutral face and all visemes or expressions")

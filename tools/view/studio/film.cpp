@@ -10,6 +10,7 @@
 #include "tools/formats/media/video.h"
 #include "tools/view/plot/strip.h"
 #include "tools/view/studio/captions.h"
+#include "tools/view/studio/gif.h"
 #include "tools/view/studio/picture_file.h"
 
 namespace animeme::studio {
@@ -164,13 +165,11 @@ Result<Film> write_video(const std::string& path, const fap::Sequence& clip,
   return film;
 }
 
-// Without sound.
-Result<Film> write_animation(const std::string& path, const fap::Sequence& clip,
-                             const FilmOptions& options, const tools::Log& log,
-                             const tools::Progress& progress) {
-  Result<Animation> animation =
-      Animation::open(options.look.width, options.look.height, picture_quality(options.quality));
-  if (!animation) return animation.error();
+// Without sound. `animation`: a Gif or an Animation.
+template <class Pictures>
+Result<Film> write_pictures(const std::string& path, const fap::Sequence& clip,
+                            const FilmOptions& options, Pictures& animation, const char* codec,
+                            const tools::Log& log, const tools::Progress& progress) {
   const fap::Rate rate = options.rate.value_or(clip.rate);
   const auto instant = [&](std::int64_t picture) {
     return int(std::lround(rate.seconds(double(picture)) * 1000));
@@ -178,15 +177,28 @@ Result<Film> write_animation(const std::string& path, const fap::Sequence& clip,
   Result<Film> film = render_all(
       clip, clip.duration(), options,
       [&](std::span<const std::uint8_t> rgba, std::int64_t picture) {
-        return animation->push(rgba, instant(picture));
+        return animation.push(rgba, instant(picture));
       },
       log, progress);
   if (!film) return film;
-  const auto file = animation->finish(instant(std::int64_t(film->pictures)));
+  const auto file = animation.finish(instant(std::int64_t(film->pictures)));
   if (!file) return file.error();
   if (auto done = tools::write_file(path, *file); !done) return done.error();
-  film->codec = "animated WebP";
+  film->codec = codec;
   return film;
+}
+
+Result<Film> write_animation(const std::string& path, const fap::Sequence& clip,
+                             const FilmOptions& options, const tools::Log& log,
+                             const tools::Progress& progress) {
+  const int quality = picture_quality(options.quality);
+  if (tools::extension_of(path) == ".gif") {
+    Gif gif(options.look.width, options.look.height, quality);
+    return write_pictures(path, clip, options, gif, "animated GIF", log, progress);
+  }
+  Result<Animation> animation = Animation::open(options.look.width, options.look.height, quality);
+  if (!animation) return animation.error();
+  return write_pictures(path, clip, options, *animation, "animated WebP", log, progress);
 }
 
 // Where the number of the picture goes into the path.
@@ -254,7 +266,9 @@ bool keeps_alpha(const std::string& extension) {
   return extension == ".webm" || extension == ".webp" || extension == ".png";
 }
 
-bool is_animation(const std::string& extension) { return extension == ".webp"; }
+bool is_animation(const std::string& extension) {
+  return extension == ".webp" || extension == ".gif";
+}
 
 int picture_quality(int quality) { return std::clamp(100 - quality, 1, 100); }
 

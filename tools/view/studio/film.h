@@ -42,7 +42,7 @@ struct Film {
   bool stopped = false;      ///< cancelled before the end
 };
 
-/// Whether the extension (in lower case) is that of an animation without sound: .webp.
+/// Whether the extension (in lower case) is that of an animation without sound: .webp, .gif.
 bool is_animation(const std::string& extension);
 
 /// Whether the path names a picture for each frame: ".png" with one %d or %04d in its name.
@@ -54,7 +54,7 @@ bool keeps_alpha(const std::string& extension);
 /// The quality of JPEG and WebP, 1..100, for one of FilmOptions.
 int picture_quality(int quality);
 
-/// Whether write_film() supports the extension (in lower case): .mp4, .webm, .mkv, and .webp.
+/// Whether write_film() supports the extension (in lower case): .mp4, .webm, .mkv, .webp, .gif.
 bool is_film(const std::string& extension);
 
 /// Renders `clip` (filled) and writes it with `sound` (audio or encoded; its face becomes a
