@@ -95,7 +95,7 @@ std::string sounds(const dam::Evaluation& evaluation, const dam::Model* model) {
                    [](const auto& a, const auto& b) { return a.nrmse > b.nrmse; });
   const double most = phones.front().nrmse;
   std::string html =
-      "<table class=\"sounds\"><tr><th>phone</th><th>error</th><th></th><th>here</th>";
+      "<table class=\"sounds\"><tr><th>phone</th><th>error</th><td></td><th>here</th>";
   html += model != nullptr ? "<th>in training</th></tr>\n" : "</tr>\n";
   for (const dam::GroupScore& phone : phones) {
     html += "<tr><th>" + safe(phone.name) + "</th>" +
@@ -115,9 +115,8 @@ std::string sounds(const dam::Evaluation& evaluation, const dam::Model* model) {
 // Error, likeness and liveliness of each control.
 std::string controls(const dam::Evaluation& e) {
   std::string html =
-      "<table "
-      "class=\"controls\"><tr><th>control</th><th>similarity</th><th>error</th><th></"
-      "th><th>liveliness</th></tr>\n";
+      "<table class=\"controls names\"><tr><th>control</th><th>similarity</th><th>error</th>"
+      "<td></td><th>liveliness</th></tr>\n";
   for (std::size_t c = 0; c < e.controls.size(); ++c) {
     const dam::SeriesScore& control = e.controls[c];
     if (control.nrmse == 0 && control.correlation == 0) continue;
@@ -139,7 +138,8 @@ std::string sentences(const dam::Evaluation& e, const std::vector<dam::SentenceP
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return e.per_utterance[a].nrmse > e.per_utterance[b].nrmse;
   });
-  std::string html = "<table><tr><th>sentence</th><th>error</th><th>what is said</th></tr>\n";
+  std::string html =
+      "<table class=\"names\"><tr><th>sentence</th><th>error</th><th>what is said</th></tr>\n";
   for (std::size_t i = 0; i < std::min(kWorstSentences, order.size()); ++i) {
     const dam::UtteranceScore& one = e.per_utterance[order[i]];
     html += "<tr><th>" + safe(one.id) + "</th>" + format("<td class=\"n\">%.2f</td>", one.nrmse) +
@@ -149,18 +149,23 @@ std::string sentences(const dam::Evaluation& e, const std::vector<dam::SentenceP
 }
 
 constexpr const char* kStyle = R"(
-:root { color-scheme: light dark; --line: #8884; --bar: #3b7dd8; --rare: #c2410c; }
+:root { color-scheme: light dark; --line: #8884; --bar: #3b7dd8; --rare: #b4380a; }
+@media (prefers-color-scheme: dark) { :root { --rare: #fb923c; } }
 body { font: 16px/1.45 system-ui, sans-serif; max-width: 1000px; margin: 2rem auto; padding: 0 1rem; }
 h1 { margin-bottom: 0; } h3::first-letter { text-transform: uppercase; } h2 { margin-top: 2.2rem; border-bottom: 1px solid var(--line); }
+h1, h3, p, th, td { overflow-wrap: anywhere; }
 p.about { margin-top: .2rem; opacity: .75; }
 table { border-collapse: collapse; } th { text-align: left; font-weight: 600; }
 th, td { padding: .15rem .8rem .15rem 0; vertical-align: top; } td.n { text-align: right; font-variant-numeric: tabular-nums; }
 table.figures td.n { font-size: 1.25rem; } .rare { color: var(--rare); }
-.bar { width: 14rem; height: .8em; margin-top: .35em; background: var(--line); border-radius: .4em; }
+.bar { width: clamp(2rem, 18vw, 14rem); height: .8em; margin-top: .35em; background: var(--line); border-radius: .4em; }
 .bar div { height: 100%; background: var(--bar); border-radius: .4em; }
 .curves { overflow-x: auto; background: #fff; border-radius: .5rem; } .curves svg { display: block; }
-iframe { width: 100%; height: 34rem; border: 1px solid var(--line); border-radius: .5rem; }
-details summary { cursor: pointer; }
+iframe { box-sizing: border-box; width: 100%; height: 34rem; border: 1px solid var(--line); border-radius: .5rem; }
+@media (max-width: 600px) {
+  body { margin: 1rem auto; padding: 0 .8rem; } th, td { padding-right: .5rem; }
+  .names th { font-size: .85rem; }
+}
 )";
 
 /// The motion of a signal, complete, as a page shows it.
@@ -242,8 +247,10 @@ Result<std::string> make_sheet(const Sheet& sheet) {
          "'unsafe-inline' 'wasm-unsafe-eval'; "
          "style-src 'unsafe-inline'; img-src data:; media-src data: blob:; frame-src "
          "'self'\">\n<title>" +
-         title + "</title>\n<style>" + kStyle + "</style>\n<h1>" + title + "</h1>\n" +
-         about(sheet) + figures(*sheet.evaluation) + "<h2>Curves</h2>\n<div class=\"curves\">" +
+         title + "</title>\n<style>" + kStyle + "</style>\n<main>\n<h1>" + title + "</h1>\n" +
+         about(sheet) + figures(*sheet.evaluation) +
+         "<h2>Curves</h2>\n<div class=\"curves\" role=\"region\" aria-label=\"Curves of the best, "
+         "the median and the worst sentence\" tabindex=\"0\">" +
          *curves + "</div>\n" + *heads +
          "<h2>Phones</h2>\n<p>Errors by phone, largest first; 1 is the error of a mouth that does "
          "not move.</p>\n" +
@@ -251,7 +258,7 @@ Result<std::string> make_sheet(const Sheet& sheet) {
          controls(*sheet.evaluation) +
          "<h2>Outliers</h2>\n<p>Often they have the wrong labels or tracking errors: check them "
          "first.</p>\n" +
-         sentences(*sheet.evaluation, *sheet.pairs) + "</html>\n";
+         sentences(*sheet.evaluation, *sheet.pairs) + "</main>\n</html>\n";
 }
 
 }  // namespace animeme::sheet

@@ -2,6 +2,8 @@
 'use strict';
 
 const fs = require('fs');
+const path = require('path');
+const {pathToFileURL} = require('url');
 
 // Runs in the page.
 async function judged() {
@@ -13,10 +15,13 @@ async function judged() {
   };
 }
 
+function axeSource() {
+  return fs.readFileSync(
+      require.resolve('../../../readers/js/node_modules/axe-core/axe.min.js'), 'utf8');
+}
+
 async function axe(page, file, folder, open) {
-  const source =
-      fs.readFileSync(require.resolve('../../../readers/js/node_modules/axe-core/axe.min.js'),
-      'utf8');
+  const source = axeSource();
   const report = {checked: [], violations: []};
   const judge = async (where) => {
     const {checked, violations} = await page.evaluate(judged);
@@ -37,4 +42,34 @@ async function axe(page, file, folder, open) {
   return report;
 }
 
-module.exports = {axe};
+// Runs in the page: what reaches beyond the right edge of the window, without what scrolls by
+// itself.
+function beyond() {
+  const edge = document.documentElement.clientWidth + 0.5;
+  return [...document.querySelectorAll('main *')].filter((element) =>
+    !element.closest('.curves svg') && element.getBoundingClientRect().right > edge)
+      .map((element) => `${element.tagName} ${element.textContent.slice(0, 30)}`);
+}
+
+async function sheet(page, file, folder) {
+  const report = {checked: [], violations: [], widths: [], beyond: []};
+  for (const [width, height] of [[1280, 800], [390, 844]]) {
+    for (const theme of ['light', 'dark']) {
+      await page.send('Emulation.setDeviceMetricsOverride',
+          {width, height, deviceScaleFactor: 1, mobile: width < 600});
+      await page.send('Emulation.setEmulatedMedia',
+          {features: [{name: 'prefers-color-scheme', value: theme}]});
+      await page.goto(pathToFileURL(file).href);
+      await page.evaluate(axeSource() + '; true');
+      const {checked, violations} = await page.evaluate(judged);
+      report.checked.push(checked);
+      report.violations.push(...violations.map((text) => `${width} ${theme}: ${text}`));
+      report.widths.push(width - await page.evaluate('document.documentElement.scrollWidth'));
+      report.beyond.push(...await page.evaluate(beyond));
+      await page.screenshot(path.join(folder, `sheet_${width}_${theme}.png`));
+    }
+  }
+  return report;
+}
+
+module.exports = {axe, sheet};

@@ -1,4 +1,4 @@
-// node viewer_report.js looks|other|tracks|sound|speeds|texts|says|screens|axe|picture|live
+// node viewer_report.js looks|other|tracks|sound|speeds|texts|says|screens|axe|sheet|picture|live
 // PAGE.html FOLDER: what Chromium makes of a page, as
 // JSON.
 //
@@ -24,6 +24,8 @@
 // axe: what axe-core finds wrong at the sizes of a desktop and a phone, light, dark and with the
 // help open:
 //   {checked: how many elements passed, violations: [texts]}.
+// sheet: a page of evaluate --report likewise: also `widths` that are left of the window beside the
+//   page, and what is `beyond` its edge.
 // picture: the canvas of frame 0, 20 degrees to the left, as R, G, B in FOLDER/picture.rgb; {width,
 // height}. live: `result` of a page with values of its own.
 // All have `messages`: what the console said.
@@ -33,7 +35,7 @@ const fs = require('fs');
 const path = require('path');
 const {pathToFileURL} = require('url');
 const {launch, sleep} = require('../../../readers/js/browser');
-const {axe} = require('./axe_report');
+const {axe, sheet} = require('./axe_report');
 const {difference, readPng, specks} = require('./png');
 
 const FLAGS = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'];
@@ -375,8 +377,8 @@ async function main([kind, file, folder]) {
   const browser = await launch({flags: FLAGS});
   try {
     const page = await browser.open();
-    const report = await {looks, other, tracks, sound, speeds, texts, says, screens, axe, picture,
-        live}[kind](page, path.resolve(file), folder, open);
+    const report = await {looks, other, tracks, sound, speeds, texts, says, screens, axe, sheet,
+        picture, live}[kind](page, path.resolve(file), folder, open);
     report.messages = page.messages;
     process.stdout.write(JSON.stringify(report) + '\n');
   } finally {
