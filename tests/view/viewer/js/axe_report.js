@@ -54,13 +54,13 @@ function beyond() {
 async function sheet(page, file, folder) {
   const report = {checked: [], violations: [], widths: [], beyond: []};
   for (const [width, height] of [[1280, 800], [390, 844]]) {
+    await page.send('Emulation.setDeviceMetricsOverride',
+        {width, height, deviceScaleFactor: 1, mobile: width < 600});
+    await page.goto(pathToFileURL(file).href);
+    await page.evaluate(axeSource() + '; true');
     for (const theme of ['light', 'dark']) {
-      await page.send('Emulation.setDeviceMetricsOverride',
-          {width, height, deviceScaleFactor: 1, mobile: width < 600});
       await page.send('Emulation.setEmulatedMedia',
           {features: [{name: 'prefers-color-scheme', value: theme}]});
-      await page.goto(pathToFileURL(file).href);
-      await page.evaluate(axeSource() + '; true');
       const {checked, violations} = await page.evaluate(judged);
       report.checked.push(checked);
       report.violations.push(...violations.map((text) => `${width} ${theme}: ${text}`));
