@@ -1,15 +1,22 @@
 // Two heads of one server, each on its page in a browser.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <optional>
 #include <thread>
 
 #include "tests/live/web/chromium.h"
 #include "tests/support/folders.h"
+#include "tests/support/temp_dir.h"
 #include "tools/live/serve/server.h"
 #include "tools/live/webrtc/webrtc.h"
 
@@ -132,6 +139,104 @@ TEST(PageOfAHead, ComesBackAfterEachRedeploy) {
   std::printf("ms until the page is live again, of which the server is away for 1000:%s\n",
               times.c_str());
   (*server)->finish();
+}
+
+// `animeme serve` with a head "anna", as a process of its own.
+class ServeProcess {
+ public:
+  /// `url`: where it listens; port 0: anywhere. address() is empty where it does not start.
+  ServeProcess(const std::string& heads, const std::string& url) {
+    int ends[2] = {-1, -1};
+    if (::pipe(ends) != 0) return;
+    const std::string program = std::string(kBinaryFolder) + "/bin/animeme";
+    pid_ = ::fork();
+    if (pid_ == 0) {
+      ::dup2(ends[1], 1);
+      ::close(ends[0]);
+      ::execl(program.c_str(), program.c_str(), "serve", heads.c_str(), "--listen", url.c_str(),
+              "--json", "--quiet", static_cast<char*>(nullptr));
+      ::_exit(127);
+    }
+    ::close(ends[1]);
+    std::string line;
+    for (char letter = 0; ::read(ends[0], &letter, 1) == 1 && letter != '\n';) line += letter;
+    out_ = ends[0];
+    const Json json = Json::parse(line, nullptr, false);
+    if (json.is_object()) address_ = json.value("address", "");
+  }
+  ~ServeProcess() { (void)end(); }
+  ServeProcess(const ServeProcess&) = delete;
+  ServeProcess& operator=(const ServeProcess&) = delete;
+
+  const std::string& address() const { return address_; }
+  /// Exit code after SIGTERM.
+  int end() {
+    if (pid_ <= 0) return -1;
+    ::kill(pid_, SIGTERM);
+    char rest[4096];
+    while (::read(out_, rest, sizeof rest) > 0) {
+    }
+    ::close(out_);
+    int status = 0;
+    ::waitpid(pid_, &status, 0);
+    pid_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+ private:
+  pid_t pid_ = -1;
+  int out_ = -1;
+  std::string address_;
+};
+
+TEST(PageOfAHead, ComesBackAfterItsProcessIsReplaced) {
+  if (Chromium::find().empty()) GTEST_SKIP() << "Chromium is not installed";
+  if (!std::filesystem::exists(std::string(kBinaryFolder) + "/bin/animeme")) {
+    GTEST_SKIP() << "the program is not built";
+  }
+  double load = 0;
+  if (getloadavg(&load, 1) == 1 && load > 20) GTEST_SKIP() << "this machine is too busy";
+  const char* wanted = std::getenv("ANIMEME_REDEPLOYS");
+  const int redeploys = wanted != nullptr ? std::atoi(wanted) : 2;
+  const TempDir dir;
+  const std::string heads = dir.file("heads.json");
+  std::ofstream(heads) << R"({"heads": [{"name": "anna"}]})";
+  std::optional<ServeProcess> server;
+  server.emplace(heads, "http://127.0.0.1:0/");
+  ASSERT_FALSE(server->address().empty());
+  const std::string url = server->address();
+  Chromium browser;
+  ASSERT_TRUE(browser.is_open());
+  browser.open(url + "heads/anna/", 1000, 800, false);
+  EXPECT_TRUE(shows(browser, "animeme.blocked || animeme.state === 'live'"));
+  browser.evaluate("document.getElementById('sound').click()");
+  std::string times;
+  for (int i = 0; i < redeploys; ++i) {
+    ASSERT_TRUE(shows(browser, "animeme.state === 'live' && animeme.session.frames.length > 20"));
+    // What was accepted is said to its end, and only then do viewers have to look for another one.
+    browser.evaluate(
+        "window.back = window.gone = window.end = undefined;"
+        "clearInterval(window.watch); window.watch = setInterval(() => {"
+        "  if (animeme.state !== 'live') window.gone = window.gone || performance.now();"
+        "  else if (window.gone) window.back = window.back || performance.now();"
+        "}, 10)");
+    EXPECT_EQ(browser.evaluate("fetch('say', {method: 'POST', body: 'This is said to its end.'})"
+                               ".then((answer) => answer.status)"),
+              202);
+    EXPECT_EQ(server->end(), 0);
+    const auto ended = std::chrono::steady_clock::now();
+    server.emplace(heads, url);
+    const std::chrono::duration<double, std::milli> away = std::chrono::steady_clock::now() - ended;
+    ASSERT_EQ(server->address(), url) << i;
+    ASSERT_TRUE(shows(browser, "window.back !== undefined")) << i;
+    times += " " +
+             std::to_string(
+                 int(browser.evaluate("Math.round(window.back - window.gone)").get<double>())) +
+             " (" + std::to_string(int(away.count())) + ")";
+  }
+  std::printf("ms until the page is live again, and until the next process listens; load %.1f:%s\n",
+              load, times.c_str());
+  EXPECT_EQ(server->end(), 0);
 }
 
 TEST(PageOfAHead, TheListShowsOne) {

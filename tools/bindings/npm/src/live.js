@@ -69,7 +69,7 @@ function steer(media, buffer) {
       0.96 : 1;
 }
 
-const kRetry = [0.25, 0.5, 0.5, 0.5, 1, 1, 2, 4];  // seconds
+const kRetry = [0.25, 0.5, 0.5, 0.5, ...Array(10).fill(1), 2, 4];  // seconds
 
 // One connection to the server. `heard()`: it has begun to speak.
 async function session(url, {media, silent, track, signal, told}, heard) {

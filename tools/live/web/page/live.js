@@ -10,8 +10,9 @@ const Live = (() => {
   const kFirst = 3;        // seconds after the start that count for nothing: the page is being made
   const kKeep = 10;        // seconds of frames and sound that are kept behind
   const kStep = 200;       // milliseconds
-  // Milliseconds: a server that is replaced is away for two or three seconds.
-  const kRetry = [250, 500, 500, 500, 1000, 1000, 2000, 4000];
+  // Milliseconds: a server that is replaced is away for two or three seconds, on a busy machine for
+  // ten.
+  const kRetry = [250, 500, 500, 500, ...Array(10).fill(1000), 2000, 4000];
 
   // Of what belongs to this presentation: the ticket of the page is that of all of it.
   const ticket = new URLSearchParams(location.search).get('ticket');
