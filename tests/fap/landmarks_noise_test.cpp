@@ -270,6 +270,29 @@ TEST(Landmarks, SmoothingDelaysNothing) {
   EXPECT_NEAR(sum, 1000, 3);
 }
 
+// A frame that is as far away as the bell reaches counts on both sides.
+TEST(Landmarks, SmoothingReachesAsFarToBothSides) {
+  LandmarkTrack track{{1, 1}, {}, true, {}};
+  for (const auto& [id, place] : made_up_face()) track.points.push_back(id);
+  const test::Camera camera;
+  for (std::int64_t i = 0; i < 21; ++i) {
+    Frame frame;
+    if (i == 10) frame.set(49, 60000);
+    const FeaturePoints face = moved_face(frame);
+    LandmarkFrame seen{i, {}, {}, {}};
+    for (const std::string& id : track.points) {
+      seen.at.push_back(camera(face.find(id)->second, frame));
+    }
+    track.frames.push_back(seen);
+  }
+  const auto found = landmarks_to_fap(track, {{0}, 1, false});
+  ASSERT_TRUE(found) << found.error().message;
+  const auto at = [&](std::size_t i) { return found->clip.frames[i].value[49]; };
+  EXPECT_GT(at(6), 0);
+  EXPECT_EQ(at(5), 0);
+  for (std::size_t i = 0; i <= 10; ++i) EXPECT_EQ(at(10 - i), at(10 + i)) << i;
+}
+
 TEST(Landmarks, SmoothingKeepsLinesAndCountsTimeNotFrames) {
   std::vector<int> line;
   for (int i = 0; i < 40; ++i) line.push_back(10 * i);
