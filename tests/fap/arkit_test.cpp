@@ -48,6 +48,9 @@ TEST(Arkit, NamesAreFoundInAnySpelling) {
   EXPECT_EQ(find_arkit("jaw_open "), find_arkit("jawOpen"));
   EXPECT_EQ(find_arkit("tongueOut"), kArkitShapeCount - 1);
   EXPECT_EQ(find_arkit("headYaw"), kArkitShapeCount);
+  for (const char* name : {"head_lod0_mesh__jawOpen", "blendShapes.JawOpen", "mesh|jawOpen"}) {
+    EXPECT_EQ(find_arkit(name), find_arkit("jawOpen")) << name;
+  }
   for (const char* name : {"", "_L", "jaw", "openJaw", "eyeBlink", "cheekRaiserLeft"}) {
     EXPECT_FALSE(find_arkit(name)) << name;
   }
