@@ -13,6 +13,7 @@
 #include "tests/support/files.h"
 #include "tests/support/temp_dir.h"
 #include "tools/speech/voice/align.h"
+#include "tools/speech/voice/hearing.h"
 #include "tools/speech/voice/listen_stream.h"
 #include "tools/speech/voice/voice.h"
 
@@ -313,6 +314,23 @@ TEST(SoundListener, ForgetsWhatIsToldAndTakesAnyRate) {
   (*listener)->push(std::vector<float>(5000, std::numeric_limits<float>::infinity()));
   (*listener)->push({});
   EXPECT_TRUE(dam::check_script((*listener)->hear(0).script));
+}
+
+// A head that hears sound takes 4 MB less.
+TEST(SoundListener, AllHaveOneModel) {
+  if (deaf()) GTEST_SKIP() << "no pocketsphinx";
+  auto first = shared_hearing({});
+  const auto second = shared_hearing({});
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(first->get(), second->get());
+  ListenOptions german;
+  german.language = "de";
+  const auto other = shared_hearing(german);
+  ASSERT_TRUE(other);
+  EXPECT_NE(other->get(), second->get()) << "it weighs phones in another way";
+  ListenOptions missing;
+  missing.model_path = "/nowhere";
+  EXPECT_FALSE(shared_hearing(missing));
 }
 
 }  // namespace listen_test

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <mutex>
 
 namespace animeme::voice {
 
@@ -76,6 +78,22 @@ Result<HearingModel> load_hearing(const ListenOptions& options) {
     model.labels.emplace_back(info != nullptr ? info->label : dam::kSilence);
     model.classes.push_back(info != nullptr ? info->phone_class : dam::PhoneClass::silence);
   }
+  return model;
+}
+
+Result<std::shared_ptr<const HearingModel>> shared_hearing(const ListenOptions& options) {
+  static std::mutex mutex;
+  static std::map<std::string, std::weak_ptr<const HearingModel>> known;
+  const std::string key = options.model_path + '\n' + options.phones_path + '\n' +
+                          (speaks_english(options.language) ? "en" : "") + '\n' +
+                          std::to_string(options.readings);
+  const std::lock_guard lock(mutex);
+  std::weak_ptr<const HearingModel>& one = known[key];
+  if (std::shared_ptr<const HearingModel> model = one.lock()) return model;
+  Result<HearingModel> read = load_hearing(options);
+  if (!read) return read.error();
+  auto model = std::make_shared<const HearingModel>(std::move(*read));
+  one = model;
   return model;
 }
 

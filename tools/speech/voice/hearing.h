@@ -39,6 +39,10 @@ bool speaks_english(const std::string& language);
 /// Errors: those of read_sound_model() and read_phone_pairs(), invalid_argument (options).
 Result<HearingModel> load_hearing(const ListenOptions& options);
 
+/// The same, one for all that use it at a time: it takes 2 MB. Thread safe. Errors: those of
+/// load_hearing().
+Result<std::shared_ptr<const HearingModel>> shared_hearing(const ListenOptions& options);
+
 /// A trace of noise that is laid under a sound. Rooms have some, and to a model that has learned
 /// from rooms what is cut to zeros is no silence, and weak sounds beside it are none.
 struct Trace {

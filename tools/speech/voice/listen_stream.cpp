@@ -23,14 +23,14 @@ constexpr Cepstrum kFirstMean{41.0f,  -5.29f, -0.12f, 5.09f,  2.48f,  -4.07f, -1
 
 class Listener : public SoundListener {
  public:
-  Listener(HearingModel model, std::unique_ptr<CepstraReader> reader,
+  Listener(std::shared_ptr<const HearingModel> model, std::unique_ptr<CepstraReader> reader,
            std::unique_ptr<RateChange> rate, std::size_t readings)
       : model_(std::move(model)),
         reader_(std::move(reader)),
         rate_(std::move(rate)),
         readings_(readings),
-        paths_(model_.sound, model_.pairs, model_.weights),
-        scores_(model_.sound.states()) {}
+        paths_(model_->sound, model_->pairs, model_->weights),
+        scores_(model_->sound.states()) {}
 
   void push(std::span<const float> samples) override {
     clean_.assign(samples.begin(), samples.end());
@@ -47,7 +47,7 @@ class Listener : public SoundListener {
       if (next_ + kFeatureReach >= frames_.size()) continue;
       Cepstrum mean;
       for (std::size_t i = 0; i < kCepstra; ++i) mean[i] = float(sums_[i] / count_);
-      score_states(model_.sound, features_of(frames_, next_, mean), scores_);
+      score_states(model_->sound, features_of(frames_, next_, mean), scores_);
       paths_.push(scores_);
       ++next_;
     }
@@ -68,11 +68,11 @@ class Listener : public SoundListener {
     if (length <= 0 || paths_.frames() <= first) return heard;
     std::vector<Path> drawn;
     for (std::size_t i = 0; i < readings_; ++i) drawn.push_back(paths_.draw(first, i));
-    const Votes votes = count_votes(drawn, model_.labels.size());
-    heard.script = script_of_path(model_, agreed_path(model_, votes, kLeastClosureLive), first,
+    const Votes votes = count_votes(drawn, model_->labels.size());
+    heard.script = script_of_path(*model_, agreed_path(*model_, votes, kLeastClosureLive), first,
                                   from, length, &votes, &heard.confidences);
     for (const Path& path : drawn) {
-      heard.readings.push_back(script_of_path(model_, path, first, from, length));
+      heard.readings.push_back(script_of_path(*model_, path, first, from, length));
     }
     return heard;
   }
@@ -101,7 +101,7 @@ class Listener : public SoundListener {
     for (std::size_t i = 0; i < kCepstra; ++i) sums_[i] += double(frame[i]);
   }
 
-  HearingModel model_;
+  std::shared_ptr<const HearingModel> model_;
   std::unique_ptr<CepstraReader> reader_;
   std::unique_ptr<RateChange> rate_;
   std::size_t readings_;
@@ -121,7 +121,7 @@ class Listener : public SoundListener {
 Result<std::unique_ptr<SoundListener>> SoundListener::open(int rate, const ListenOptions& options) {
   auto change = RateChange::open(rate);
   if (!change) return change.error();
-  auto model = load_hearing(options);
+  auto model = shared_hearing(options);
   if (!model) return model.error();
   auto reader = CepstraReader::open(options.model_path);
   if (!reader) return reader.error();
