@@ -90,7 +90,7 @@ struct Encoder::Impl : Encoder::Place {
 
   void write_slots(SlotState& slots, bool intra, const internal::SlotLevels& levels) {
     if (slots.coding.coded.empty()) {
-      SegmentEncoder(out).flush();
+      out.bits(1, 2);  // as flush() ends an empty segment
       return;
     }
     const std::size_t begin = out.position();

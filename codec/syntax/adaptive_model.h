@@ -79,7 +79,8 @@ class AdaptiveModel {
     std::int16_t* sums = below_.data();
     const std::int16_t* more = &kMore[kLine - 1 - mirrored];
     const std::size_t size = below_.size();
-    for (std::size_t i = 0; i < size; i += 2 * kBlock) {
+    // The sums up to the symbol stay.
+    for (std::size_t i = (mirrored + 1) & ~(2 * kBlock - 1); i < size; i += 2 * kBlock) {
       add_block(sums + i, more + i);
       add_block(sums + i + kBlock, more + i + kBlock);
     }

@@ -6,6 +6,7 @@
 #include "dam/speaking/moods.h"
 #include "dam/speaking/stream.h"
 #include "tools/bindings/python/python_internal.h"
+#include "tools/formats/files/files.h"
 #include "tools/speech/talking/spoken.h"
 #include "tools/speech/voice/pitch.h"
 
