@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "fap/result.h"
 #include "tools/app/commands/options.h"
 
 namespace animeme::tools {
