@@ -136,11 +136,16 @@ TEST(Repair, TheStandardFormOfADamage) {
   units.units[30].bytes[3] = 0x55;  // its start code
   int lost = 1;
   while (!units.units[std::size_t(30 + lost)].intra) ++lost;
+  std::size_t before = 0;
+  for (std::size_t i = 0; i < 30; ++i) before += units.units[i].bytes.size();
+  const std::size_t behind = before + units.units[30].bytes.size();
   const auto damage = fba::repair_units(units);
   ASSERT_TRUE(damage) << damage.error().describe();
   ASSERT_EQ(damage->size(), 1u);
   EXPECT_EQ((*damage)[0].frames, lost);
   EXPECT_DOUBLE_EQ((*damage)[0].seconds, 30 / 25.0);
+  EXPECT_GE((*damage)[0].bit, std::int64_t(8 * before));  // of the units in a row
+  EXPECT_LT((*damage)[0].bit, std::int64_t(8 * behind));
   EXPECT_THAT((*damage)[0].describe(), testing::StartsWith("at 1.20 s (bit "));
   EXPECT_THAT((*damage)[0].describe(),
               testing::EndsWith(": a plane has no start code; " + std::to_string(lost) +
