@@ -103,10 +103,13 @@ struct ScriptOptions {
   /// (frames of PocketSphinx), 24 (frames of Moho), 10000000 (HTK). 0: these defaults.
   double rate = 0;
   /// Whose words are read where a file tells speakers apart (WebVTT, TextGrids of several speakers,
-  /// recognisers), in any case. Empty: those of all.
+  /// channels of a CTM, recognisers), in any case. Empty: those of all.
   std::string speaker;
   /// Marks such as "[noise]" (dam/script/marks.h) are words, too; else they are silence.
   bool speak_marks = false;
+  /// What several say at the same time stays as it is: labels of speakers overlap, and TextGrids
+  /// give the tiers of all. For who asks who speaks; make_script() takes one speaker.
+  bool everyone = false;
 };
 
 /// Something in a file that was left out, or read as something else than it says; one of a kind.

@@ -70,7 +70,7 @@ bool looks_like_ctm(std::string_view text) {
 Result<Timings> read_ctm(std::string_view text, const ScriptOptions& options) {
   std::vector<std::string> names;
   std::set<std::string> seen;
-  std::vector<std::pair<std::string, TimedLabel>> all;
+  std::vector<std::pair<std::string, TimedLabel>> all;  // the channel as the speaker
   LabelRows reader(text, ";;");
   LabelRow row;
   while (reader.next(row)) {
@@ -85,6 +85,7 @@ Result<Timings> read_ctm(std::string_view text, const ScriptOptions& options) {
     std::string name(row.fields[0]);
     if (seen.insert(name).second) names.push_back(name);
     all.emplace_back(std::move(name), row.label_at(4, *start, *start + *length));
+    all.back().second.speaker = row.fields[1];
   }
   if (names.empty()) return nothing_in("CTM");
   const auto name = choose_recording(names, options.tier);
@@ -92,6 +93,13 @@ Result<Timings> read_ctm(std::string_view text, const ScriptOptions& options) {
   Timings timings;
   for (auto& [of, label] : all) {
     if (of == *name) timings.labels.push_back(std::move(label));
+  }
+  // A channel of its own for each person of a call; one channel tells nothing.
+  const auto other = [&](const TimedLabel& label) {
+    return label.speaker != timings.labels.front().speaker;
+  };
+  if (std::none_of(timings.labels.begin(), timings.labels.end(), other)) {
+    for (TimedLabel& label : timings.labels) label.speaker.clear();
   }
   decide_unit(timings.labels, options.unit);
   return timings;

@@ -177,7 +177,7 @@ void add_words_of_cues(std::vector<Cue> cues, const ScriptOptions& options, Timi
     if (std::any_of(said.lines.begin(), said.lines.end(), is_timed)) {
       add_timed(said, timings.labels);
     } else {
-      add_whole(said, kinds, !options.speaker.empty(), timings.labels);
+      add_whole(said, kinds, options.everyone || !options.speaker.empty(), timings.labels);
     }
   }
 }

@@ -246,7 +246,7 @@ Result<void> finish_labels(Timings& timings, const ScriptOptions& options, TimeU
   }
   read_marks(timings, options.speak_marks);
   drop_timeless(timings);
-  part_words(timings);
+  if (!options.everyone) part_words(timings);
   if (options.rate == 0) check_unit(timings, unit);
   return {};
 }

@@ -1,6 +1,7 @@
 // The phone and word tiers of a TextGrid, read and written.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <span>
@@ -93,6 +94,39 @@ Result<const TextGridTier*> choose_named(const TextGrid& grid, const std::string
                     "the file has no tier " + in_quotes(name) + "; " + tier_list(grid));
 }
 
+bool has_name_of(const TextGridTier& tier, std::span<const std::string_view> names) {
+  return std::any_of(names.begin(), names.end(),
+                     [&](std::string_view name) { return owner_of(tier, name).has_value(); });
+}
+
+bool has_known_name(const TextGridTier& tier) {
+  return has_name_of(tier, kPhoneTiers) || has_name_of(tier, kSpellingTiers) ||
+         has_name_of(tier, kWordTiers);
+}
+
+// Transcripts have tiers that are called as their speakers are.
+bool tiers_are_people(const TextGrid& grid) {
+  return std::none_of(grid.tiers.begin(), grid.tiers.end(), has_known_name);
+}
+
+// Whose tier it is, as it is spelled; empty: everybody's, or a tier of points.
+std::string speaker_of(const TextGridTier& tier, bool by_tier) {
+  const std::string_view name = trimmed(tier.name);
+  if (tier.points) return {};
+  if (by_tier) return std::string(name);
+  for (const auto names : {std::span<const std::string_view>(kPhoneTiers),
+                           std::span<const std::string_view>(kSpellingTiers),
+                           std::span<const std::string_view>(kWordTiers)}) {
+    for (const std::string_view known : names) {
+      const auto owner = owner_of(tier, known);
+      if (!owner || owner->empty()) continue;
+      const std::size_t at = lower_case(name).find(*owner);
+      return std::string(name.substr(at, owner->size()));
+    }
+  }
+  return {};
+}
+
 // The phones; where there are none, the words.
 Result<const TextGridTier*> choose_tier(const TextGrid& grid, const std::string& speaker) {
   const std::string owner = lower_case(trimmed(speaker));
@@ -116,6 +150,10 @@ Result<const TextGridTier*> choose_tier(const TextGrid& grid, const std::string&
   auto words = only_one(kWordTiers, "words");
   if (!words || *words != nullptr) return words;
   if (!owner.empty()) {
+    for (const TextGridTier& tier : grid.tiers) {
+      const bool theirs = !tier.points && lower_case(trimmed(tier.name)) == owner;
+      if (theirs && tiers_are_people(grid)) return &tier;
+    }
     return make_error(Code::not_found,
                       "no tier holds what " + in_quotes(speaker) + " says; " + tier_list(grid));
   }
@@ -128,11 +166,6 @@ Result<const TextGridTier*> choose_tier(const TextGrid& grid, const std::string&
                     "the file has no tier named phones, phone, phonemes or words; name the one to "
                     "read by its name or number (--tier): " +
                         tier_list(grid));
-}
-
-bool has_name_of(const TextGridTier& tier, std::span<const std::string_view> names) {
-  return std::any_of(names.begin(), names.end(),
-                     [&](std::string_view name) { return owner_of(tier, name).has_value(); });
 }
 
 bool is_word_tier(const TextGridTier& tier) { return has_name_of(tier, kWordTiers); }
@@ -198,7 +231,32 @@ bool looks_like_textgrid(std::string_view text) {
          head.starts_with("File type = ") || head.starts_with("\"Praat chronological TextGrid");
 }
 
+Result<Timings> labels_of_everyone(const TextGrid& grid, const ScriptOptions& options) {
+  Timings all;
+  std::vector<std::string> known;
+  const bool by_tier = tiers_are_people(grid);
+  for (const TextGridTier& tier : grid.tiers) {
+    ScriptOptions one = options;
+    one.speaker = speaker_of(tier, by_tier);
+    one.everyone = false;
+    const bool again =
+        std::find(known.begin(), known.end(), lower_case(one.speaker)) != known.end();
+    if (one.speaker.empty() || again) continue;
+    known.push_back(lower_case(one.speaker));
+    auto timings = labels_of_tier(grid, one);
+    if (!timings) return timings;
+    all.labels.insert(all.labels.end(), std::make_move_iterator(timings->labels.begin()),
+                      std::make_move_iterator(timings->labels.end()));
+    all.notes = std::move(timings->notes);
+  }
+  return all;
+}
+
 Result<Timings> labels_of_tier(const TextGrid& grid, const ScriptOptions& options) {
+  if (options.everyone && options.tier.empty() && options.speaker.empty()) {
+    auto all = labels_of_everyone(grid, options);
+    if (!all || !all->labels.empty()) return all;
+  }
   const auto chosen =
       options.tier.empty() ? choose_tier(grid, options.speaker) : choose_named(grid, options.tier);
   if (!chosen) return chosen.error();

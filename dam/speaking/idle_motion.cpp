@@ -35,8 +35,36 @@ class Wider {
   std::size_t before_;
 };
 
+/// A behaviour that attends to others.
+class AttentiveBehaviour {
+ public:
+  AttentiveBehaviour(Behaviour& behaviour, const Attention* attention)
+      : behaviour_(behaviour), attention_(attention) {}
+  FaceMoment next() {
+    if (attention_ != nullptr) attend(behaviour_.time());
+    return behaviour_.next();
+  }
+
+ private:
+  void attend(double time) {
+    const std::vector<HeardSpan>& heard = attention_->heard;
+    while (heard_ < heard.size() && heard[heard_].end <= time) ++heard_;
+    const bool hears = heard_ < heard.size() && heard[heard_].start <= time;
+    if (!heard.empty()) behaviour_.hear(hears);
+    for (; look_ < attention_->looks.size(); ++look_) {
+      const TimedLook& look = attention_->looks[look_];
+      if (look.time > time) break;
+      if (look_ > 0) behaviour_.look(look.look);
+    }
+  }
+
+  Behaviour& behaviour_;
+  const Attention* attention_;
+  std::size_t heard_ = 0, look_ = 0;  // the next ones
+};
+
 void move_faps(Signal& signal, const std::vector<int>& known, const std::vector<int>& moving,
-               Behaviour& behaviour) {
+               AttentiveBehaviour& behaviour) {
   std::vector<int> added;
   for (const int fap : moving)
     if (std::find(known.begin(), known.end(), fap) == known.end()) added.push_back(fap);
@@ -196,7 +224,7 @@ std::vector<LivingShape> questions_only() {
 }
 
 void move_arkit(Signal& signal, const ArkitLayout& layout, std::vector<LivingShape> shapes,
-                Behaviour& behaviour) {
+                AttentiveBehaviour& behaviour) {
   // Eyes that never open wide need not give way.
   std::erase_if(shapes, [&](const LivingShape& shape) {
     return shape.how == LivingShape::How::less && !layout.has[std::size_t(shape.channel)];
@@ -223,6 +251,8 @@ Result<IdleMotionReport> add_idle_motion(Signal& signal, const Script& script,
     return make_error(Code::invalid_argument, "idle motion can be added to whole clips only");
   BehaviourOptions wanted{signal.rate, options.seed, options.liveliness, options.still,
                           options.look};
+  if (options.attention != nullptr && !options.attention->looks.empty())
+    wanted.look = options.attention->looks.front().look;
   wanted.end = signal.rate.seconds(double(signal.frames()));
   Result<Behaviour> behaviour = Behaviour::make(wanted);
   if (!behaviour) return behaviour.error();
@@ -243,10 +273,11 @@ Result<IdleMotionReport> add_idle_motion(Signal& signal, const Script& script,
     return IdleMotionReport{};
   }
   behaviour->speak(plan);
+  AttentiveBehaviour attentive(*behaviour, options.attention);
   if (faps)
-    move_faps(signal, known, behaviour_faps(wanted), *behaviour);
+    move_faps(signal, known, behaviour_faps(wanted), attentive);
   else
-    move_arkit(signal, *arkit, still ? questions_only() : living_shapes(options.still), *behaviour);
+    move_arkit(signal, *arkit, still ? questions_only() : living_shapes(options.still), attentive);
   return behaviour->counts();
 }
 

@@ -20,6 +20,7 @@
 #include "dam/behaviour/behaviour.h"
 #include "dam/script/script.h"
 #include "dam/signal/signal.h"
+#include "dam/speaking/conversation.h"
 #include "fap/result.h"
 
 namespace animeme::dam {
@@ -31,6 +32,8 @@ struct IdleMotionOptions {
   StillParts still = {};             ///< parts that do not move
   Look look = {};                    ///< where the eyes look
   const Prosody* prosody = nullptr;  ///< of the voice, from the start of the script; may be null
+  /// Of somebody who talks to others: in place of `look`; null: nobody else is there.
+  const Attention* attention = nullptr;
 };
 
 /// Result of add_idle_motion().
