@@ -6,13 +6,7 @@
 
 #include "codec/encode/encode.h"
 #include "dam/script/script.h"
-#include "dam/signal/closure.h"
-#include "dam/signal/fap_signal.h"
-#include "dam/speaking/idle_motion.h"
-#include "dam/speaking/moods.h"
 #include "dam/speaking/synthesise.h"
-#include "dam/speaking/tongue.h"
-#include "dam/speaking/viseme_track.h"
 #include "fap/rate_text.h"
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/face_stream.h"
@@ -22,6 +16,8 @@
 #include "tools/app/commands/motion_options.h"
 #include "tools/app/commands/over_options.h"
 #include "tools/app/commands/preview.h"
+#include "tools/app/commands/speak_parts.h"
+#include "tools/app/commands/speak_people.h"
 #include "tools/app/commands/spoken_options.h"
 #include "tools/app/commands/text_or_file.h"
 #include "tools/formats/common/bit_rate.h"
@@ -37,46 +33,6 @@
 namespace animeme::tools {
 
 namespace {
-
-struct SpeakOptions {
-  std::string input;  // a text, or a file
-  speech::SpokenOptions spoken;
-  std::vector<std::string> outputs;
-  std::string output;  // of those, the one that is written
-  std::string preview;
-  std::string model;
-  std::string rate = "25";
-  std::string save_script;
-  std::string report;  // file of --report
-  StreamSettings stream;
-  SoundSettings sound;
-  dam::SynthesisOptions motion;
-  bool no_closure = false;
-  IdleOptions idle;  // neither on nor off: where it can be had
-  OverChoice over;
-  std::string fit;                                      // range of --fit
-  std::shared_ptr<const dam::Performance> performance;  // of --over
-  dam::KeptShares keep;
-  std::optional<dam::Prosody> prosody;  // of the voice, for it
-  bool exact = false;
-  std::string visemes, expressions;  // where FAP 1 and 2 go
-  std::string mood;
-  bool tongue = true;
-  bool no_words = false;
-  bool subtitles = false;
-  bool language_told = false;
-  std::optional<double> least;  // confidence
-  bool json = false;
-  std::shared_ptr<const media::EncodedAudio> coded;  // of --audio-codec copy
-};
-
-// A model of another rig can only be written as curves.
-Error not_faps(const Error& error) {
-  if (error.code != Code::not_found) return error;
-  return make_error(Code::not_found,
-                    "the controls of this model are neither FAPs nor ARKit blend shapes; write "
-                    "them as curves with -o NAME.csv");
-}
 
 // The signal as it is, one column a control: for models of other rigs than FAPs.
 Result<int> write_curves(const std::string& path, const dam::Signal& signal) {
@@ -104,19 +60,6 @@ Result<int> write_arkit(const SpeakOptions& options, const dam::Signal& signal) 
   say(options.output + ": " + std::to_string(curves->frames.size()) + " frames of 52 shapes, " +
       fap::format_rate(curves->rate) + " frames a second");
   return kOk;
-}
-
-// talk.json, and talk.livelink.csv beside talk.csv, which has the controls of the model.
-bool is_arkit_output(const std::string& path) {
-  const std::string inner = extension_of(std::filesystem::path(path).stem().string());
-  return extension_of(path) == ".json" || (extension_of(path) == ".csv" && inner == ".livelink");
-}
-
-// Of the words. A script may be in any, whatever the default of --lang is.
-std::string language_of(const SpeakOptions& options, const speech::Spoken& spoken) {
-  if (!spoken.languages.empty()) return spoken.languages.front().language;
-  const bool script = !options.spoken.script.empty() && options.spoken.tts.empty();
-  return script && !options.language_told ? std::string() : options.spoken.language;
 }
 
 Result<std::vector<std::uint8_t>> coded_clip(const fap::Sequence& clip,
@@ -188,257 +131,26 @@ Result<int> write_result(const SpeakOptions& options, const fap::Sequence& clip,
   return write_preview(options.preview, *units, input);
 }
 
-// Phones inside words, or all of them, lie where they usually do instead of where they were heard.
-bool is_approximate(const speech::Spoken& spoken) {
-  return spoken.times == speech::TimesFrom::words ||
-         (spoken.alignment && spoken.alignment->approximate);
-}
-
-Json confidence_of(const speech::Spoken& spoken) {
-  if (spoken.heard) return spoken.heard->confidence;
-  return spoken.alignment ? Json(spoken.alignment->confidence) : Json(nullptr);
-}
-
-Json doubtful_words(const speech::Spoken& spoken) {
-  Json list = Json::array();
-  if (!spoken.alignment) return list;
-  for (const voice::AlignedWord& word : spoken.alignment->words) {
-    if (word.confidence >= voice::kDoubtful) continue;
-    list.push_back({{"word", word.text},
-                    {"start", word.start},
-                    {"end", word.end},
-                    {"confidence", word.confidence}});
-  }
-  return list;
-}
-
 speech::Doubts doubts_of(const speech::Spoken& spoken) {
   if (spoken.heard) return speech::doubts_of(spoken.script, spoken.heard->confidences);
   if (!spoken.alignment) return {};
   return speech::doubts_of(spoken.alignment->confidences, spoken.alignment->words);
 }
 
-struct RecognisedPhone {
-  dam::Phone phone;
-  double confidence = 0;
-};
-
-std::vector<RecognisedPhone> heard_phones(const speech::Spoken& spoken) {
-  std::vector<RecognisedPhone> all;
-  for (std::size_t i = 0; i < spoken.script.phones.size(); ++i) {
-    all.push_back({spoken.script.phones[i], spoken.heard->confidences[i]});
-  }
-  return all;
-}
-
-Json numbers_of(const fap::Mask& faps) {
-  Json list = Json::array();
-  for (std::size_t fap = 1; fap < faps.size(); ++fap)
-    if (faps[fap]) list.push_back(fap);
-  return list;
-}
-
-Json language_json(const voice::SpokenLanguage& part) {
-  return {{"start", part.start}, {"end", part.end},   {"language", part.language},
-          {"voice", part.voice}, {"text", part.text}, {"by_itself", part.by_itself}};
-}
-
-// P, B and M of a part of the speech, and how many of them close the lips.
-struct ClosedLips {
-  std::size_t phones = 0, closed = 0;
-};
-
-// Of the face as it is shown, with all that lies over the speech.
-struct LipClosures {
-  std::vector<std::pair<double, bool>> phones;  // middle in seconds, closed
-
-  ClosedLips between(double start, double end) const {
-    ClosedLips count;
-    for (const auto& [time, closed] : phones) {
-      if (time < start || time >= end) continue;
-      ++count.phones;
-      count.closed += closed ? 1 : 0;
-    }
-    return count;
-  }
-};
-
-// nullopt: the signal has no lips of FAPs.
-std::optional<LipClosures> lip_closures_of(const dam::Signal& signal, const dam::Script& script) {
-  const auto lips = dam::inner_lip_channels(signal.names);
-  if (!lips) return {};
-  LipClosures all;
-  for (const dam::Phone& phone : script.phones) {
-    if (!dam::is_bilabial(phone.label)) continue;
-    const dam::FrameSpan span = dam::frames_near(signal, phone, dam::kClosureSearch);
-    bool closed = false;
-    for (std::size_t frame = span.first; frame < span.last; ++frame)
-      closed = closed || dam::inner_gap(signal, frame, *lips) < dam::kClosedGap;
-    all.phones.emplace_back((phone.start + phone.end) / 2, closed);
-  }
-  return all;
-}
-
-Json closures_json(const std::optional<LipClosures>& lips, double start, double end) {
-  if (!lips) return {};
-  const ClosedLips count = lips->between(start, end);
-  return {{"phones", count.phones}, {"closed", count.closed}};
-}
-
-// What is told of the face that was written first.
-struct ShownFace {
-  std::size_t frames = 0;
-  double seconds = 0;
-  std::optional<dam::OverReport> over;
-  std::optional<LipClosures> lips;
-};
-
-Json cue_json(const speech::FittedCue& one, const ShownFace& shown) {
-  return {{"text", one.cue.text},
-          {"start", one.cue.start},
-          {"end", one.cue.end},
-          {"said", one.start},
-          {"seconds", one.seconds},
-          {"speed", one.speed},
-          {"late", one.late},
-          {"pauses_cut", one.shortened},
-          {"cut_characters", one.cut},
-          {"confidence", one.confidence ? Json(*one.confidence) : Json(nullptr)},
-          {"closures", closures_json(shown.lips, one.start, one.start + one.seconds)}};
-}
-
-Json over_json(const dam::OverReport& over) {
-  return {{"end", over.end},
-          {"moments", json_list(over.time.moments(),
-                                [](const dam::BentMoment& one) -> Json {
-                                  return {{"time", one.time}, {"source", one.source}};
-                                })},
-          {"kept", numbers_of(over.kept)},
-          {"filled", numbers_of(over.filled)}};
-}
-
-Json report_json(const SpeakOptions& options, const speech::Spoken& spoken,
-                 const dam::SynthesisReport& synthesis, const ShownFace& shown) {
-  Json replaced = Json::object();
-  for (const auto& [label, by] : synthesis.replaced) replaced[label] = by;
-  const bool heard = spoken.heard.has_value();
-  Json json = {{"output", options.outputs.front()},
-               {"voice", spoken.voice},
-               {"times", speech::name_of(spoken.times)},
-               {"approximate", is_approximate(spoken)},
-               {"confidence", confidence_of(spoken)},
-               {"doubtful_words", doubtful_words(spoken)},
-               {"seconds", shown.seconds},
-               {"frames", shown.frames},
-               {"phones", synthesis.phones},
-               {"replaced_phones", synthesis.replaced_phones},
-               {"replaced", replaced},
-               {"closures_forced", synthesis.closures},
-               {"lip_tooth_forced", synthesis.lip_tooth_contacts},
-               {"closures", closures_json(shown.lips, 0, 1e9)},
-               {"recognised", heard},
-               {"languages", json_list(spoken.languages, language_json)},
-               {"marks", json_list(spoken.marks,
-                                   [](const voice::SpeechMark& mark) -> Json {
-                                     return {{"time", mark.time}, {"name", mark.name}};
-                                   })},
-               {"warnings", spoken.warnings}};
-  if (options.outputs.size() > 1) json["outputs"] = options.outputs;
-  if (shown.over) json["over"] = over_json(*shown.over);
-  if (!spoken.cues.empty()) {
-    json["cues"] = json_list(
-        spoken.cues, [&](const speech::FittedCue& one) -> Json { return cue_json(one, shown); });
-  }
-  if (heard) {
-    json["warnings"] = spoken.heard->warnings;
-    json["heard"] = json_list(heard_phones(spoken), [](const RecognisedPhone& one) -> Json {
-      return {{"start", one.phone.start},
-              {"end", one.phone.end},
-              {"phone", one.phone.label},
-              {"confidence", one.confidence}};
-    });
-    json["words"] = json_list(spoken.heard->words, [](const voice::RecognisedWord& one) -> Json {
-      return {{"word", one.text},
-              {"start", one.start},
-              {"end", one.end},
-              {"confidence", one.confidence}};
-    });
-  }
-  return json;
-}
-
-// A file beside an output names it without the folder, which may be moved.
-std::string name_beside(const std::string& output, const std::string& file) {
-  const std::filesystem::path path(output);
-  return path.parent_path() == std::filesystem::path(file).parent_path() ? path.filename().string()
-                                                                         : output;
-}
-
-Result<void> report(const SpeakOptions& options, const speech::Spoken& spoken,
-                    const dam::SynthesisReport& synthesis, const ShownFace& shown) {
+void tell_replaced(const dam::SynthesisReport& synthesis) {
   for (const auto& [label, by] : synthesis.replaced) {
     say_more("the model has no phone " + label + ": it is spoken as " + by);
   }
-  if (!options.json && options.report.empty()) return {};
-  Json json = report_json(options, spoken, synthesis, shown);
-  if (options.json) std::printf("%s\n", pretty(json).c_str());
-  if (options.report.empty()) return {};
-  json["output"] = name_beside(options.outputs.front(), options.report);
-  if (json.contains("outputs")) {
-    for (Json& one : json["outputs"]) one = name_beside(one.text(), options.report);
-  }
-  return write_file(options.report, pretty(json) + "\n");
 }
 
-// options.output, of a face that moves by the phones alone. `shown` receives what it looks like.
+// options.output, of a face that moves by the phones alone.
 Result<int> write_output(const SpeakOptions& options, dam::Signal signal,
                          const speech::Spoken& spoken, ShownFace& shown) {
-  // Curves belong to the model's rig, and players of visemes have no brows.
-  const bool curves = extension_of(options.output) == ".csv" && !is_arkit_output(options.output);
-  const bool plain = curves || options.visemes == "instead";
-  // A lossless stream cannot hold a tongue that curls: FAP 47 goes far beyond 1860 units.
-  if (options.tongue && !plain && options.stream.quant > 0) dam::add_tongue(signal, spoken.script);
-  const bool lives = options.idle.on.value_or(!plain);
-  // Without being asked: where the names of a rig are not known, writing will say what it needs.
-  dam::IdleMotionOptions idle = options.idle.motion;
-  if (options.prosody) idle.prosody = &*options.prosody;
-  // Without quantisation, angles end at one degree.
-  if (options.stream.quant == 0) idle.still.gaze = idle.still.head = true;
-  if (options.performance) {
-    dam::OverOptions settings{options.keep, options.over.bend};
-    settings.idle = lives ? std::optional(idle) : std::nullopt;
-    auto put = dam::speak_over(signal, spoken.script, *options.performance, settings);
-    if (!put) return put.error();
-    shown.over = std::move(*put);
-  } else if (!plain || lives) {
-    if (!lives) idle.liveliness = 0;
-    auto added = dam::add_idle_motion(signal, spoken.script, idle);
-    if (!added && options.idle.on.value_or(false)) return added.error();
-  }
-  // The performance has moods of its own.
-  const bool own_moods = !options.performance || !options.mood.empty();
-  const dam::MoodTrack moods(mood_of(options.mood), own_moods ? std::span(spoken.moods)
-                                                              : std::span<const dam::MoodSpan>());
-  if (!curves || !options.mood.empty()) {
-    auto added = dam::add_moods(signal, spoken.script, moods);
-    if (!added && !options.mood.empty()) return added.error();
-  }
-  if (!shown.lips) shown.lips = lip_closures_of(signal, spoken.script);
+  if (auto added = add_life(options, signal, spoken, shown); !added) return added.error();
   if (is_arkit_output(options.output)) return write_arkit(options, signal);
-  if (curves) return write_curves(options.output, signal);
-  Result<fap::Sequence> clip = dam::to_sequence(signal);
-  if (!clip) return not_faps(clip.error());
-  clip->name = std::filesystem::path(options.output).stem().string();
-  if (!options.visemes.empty()) {
-    const bool instead = options.visemes == "instead";
-    dam::show_visemes(spoken.script, *clip,
-                      instead ? dam::VisemePlace::instead : dam::VisemePlace::beside);
-  }
-  if (!options.expressions.empty()) {
-    const bool instead = options.expressions == "instead";
-    dam::show_expressions(moods, *clip,
-                          instead ? dam::ExpressionPlace::instead : dam::ExpressionPlace::beside);
-  }
+  if (is_model_curves(options.output)) return write_curves(options.output, signal);
+  const Result<fap::Sequence> clip = shown_clip(options, signal, spoken);
+  if (!clip) return clip.error();
   return write_result(options, *clip, spoken);
 }
 
@@ -494,6 +206,8 @@ Result<void> check_confidence(const SpeakOptions& options, const speech::Spoken&
                            spoken.heard->confidence));
 }
 
+}  // namespace
+
 Result<int> run(SpeakOptions& options) {
   if (!options.input.empty()) {
     if (const std::string wrong = place_input(options); !wrong.empty()) return usage_error(wrong);
@@ -524,11 +238,17 @@ Result<int> run(SpeakOptions& options) {
     if (!range) return range.error();
     options.spoken.fit = *range;
   }
+  if (!options.cast.empty()) {
+    if (const std::string wrong = problem_with_cast(options); !wrong.empty()) {
+      return usage_error(wrong);
+    }
+  }
   Result<fap::Rate> rate = fap::parse_rate(options.rate);
   if (!rate) return rate.error();
   Result<dam::Model> model = speech::read_model(options.model);
   if (!model) return model.error();
   if (auto done = read_coded(options); !done) return done.error();
+  if (!options.cast.empty()) return speak_people(options);
   if (auto done = read_over(options.over, options.performance, options.keep); !done) {
     return done.error();
   }
@@ -580,7 +300,11 @@ Result<int> run(SpeakOptions& options) {
         spoken->script, spoken->marks, extension_of(options.save_script), doubts_of(*spoken));
     if (auto done = write_file(options.save_script, text); !done) return done.error();
   }
-  if (auto done = report(options, *spoken, synthesis, shown); !done) return done.error();
+  tell_replaced(synthesis);
+  if (options.json || !options.report.empty()) {
+    auto done = give_report(options, report_json(options, *spoken, synthesis, shown));
+    if (!done) return done.error();
+  }
   return written;
 }
 
@@ -621,6 +345,7 @@ void add_options(OptionTable& cli, SpeakOptions& options) {
       ->value("SLOWEST-FASTEST")
       ->check(problem_of<speech::parse_fit_range>)
       ->needs("--script");
+  add_cast_options(cli, options);
   cli.add(
          "--expressions", options.expressions,
          "Also code moods as FAP 2, for players that support only that: 'instead' of brows, cheeks "
@@ -653,10 +378,9 @@ void add_options(OptionTable& cli, SpeakOptions& options) {
       "Details of coding and alignment",
       "--rms --kbps --default-ranges --intra-seconds --audio-codec "
       "--audio-bitrate --exact --min-confidence "
-      "--no-tongue --visemes --expressions --look --still --seed --keep --bend --fit --report");
+      "--no-tongue --visemes --expressions --look --still --seed --keep --bend --fit --turns "
+      "--report --speak-marks --no-closure --max-seconds");
 }
-
-}  // namespace
 
 const Command kSpeak{
     "speak", "Animate a face from text, a recorded voice, or timed phones",
@@ -664,7 +388,8 @@ const Command kSpeak{
     "  animeme speak --audio voice.wav --transcript \"what she said\" -o talk.mp4\n"
     "  animeme speak --text Hello --tts \"piper -m en.onnx -f {wav}\" -o hello.mp4   # external "
     "TTS\n"
-    "  animeme speak --script voice.TextGrid --audio voice.wav --model me.dam -o talk.fba",
+    "  animeme speak --script voice.TextGrid --audio voice.wav --model me.dam -o talk.fba\n"
+    "  animeme speak --script two.vtt --fit 0.8-1.3 --cast all -o two.mp4",
     set_up<SpeakOptions>};
 
 }  // namespace animeme::tools
