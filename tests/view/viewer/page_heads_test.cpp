@@ -77,6 +77,43 @@ TEST(Page, MovesAHeadWithoutSeamsAsTheRigDoes) {
   }
 }
 
+// People side by side: each head moves by its own clip, and nothing is wrong with the page.
+TEST(Page, PeopleHaveHeadsOfTheirOwn) {
+  NEEDS_BROWSER();
+  NEEDS_NPM("axe-core");
+  const TempDir dir;
+  fap::Sequence still = moving_clip();
+  for (fap::Frame& frame : still.frames) frame = frame_of({{49, 100}});
+  for (std::size_t i = 0; i < still.frames.size(); ++i) still.frames[i].number = std::int64_t(i);
+  viewer::Page page;
+  page.title = "talk.mp4";
+  page.people.push_back({&test_head().head, &test_head().rig, -20, {moving_clip(), 0, "Ann"}});
+  page.people.push_back({&foreign_head().head, &foreign_head().rig, 20, {still, 0, "Bob"}});
+  page.scripts = {{{{0, 1, "SIL", ""}, {1, 1.5, "AA", "hello"}}},
+                  {{{0, 2, "SIL", ""}, {2, 2.5, "AA", "yes"}}}};
+  page.script.phones = {{0, 1, "SIL", ""}, {1, 1.5, "AA", "hello"}, {2, 2.5, "AA", "yes"}};
+  const auto html = viewer::make_page(page);
+  ASSERT_TRUE(html) << html.error().describe();
+  const Json report = report_of("people", *html, dir);
+  ASSERT_TRUE(report.contains("names"));
+  EXPECT_EQ(said(report), std::vector<std::string>());
+  EXPECT_EQ(report["names"], Json::parse(R"(["Ann", "Bob"])"));
+  EXPECT_EQ(report["title"], "talk.mp4");
+  // Between a frame at rest and one with an open mouth only the first one moves.
+  EXPECT_GT(report["moved"][0].get<double>(), 0.3);
+  EXPECT_EQ(report["moved"][1].get<double>(), 0);
+  // Chins are in the middles of the halves, and noses point to the other one.
+  EXPECT_LT(report["chin"][0].get<double>(), 0.5);
+  EXPECT_GT(report["chin"][1].get<double>(), 0.5);
+  EXPECT_GT(report["nose"][0].get<double>(), report["chin"][0].get<double>() + 0.01);
+  EXPECT_LT(report["nose"][1].get<double>(), report["chin"][1].get<double>() - 0.01);
+  EXPECT_EQ(report["said"], Json::parse(R"(["hello", "yes"])"));
+  const Json axe = report_of("axe", *html, dir);
+  EXPECT_EQ(axe["violations"], Json::array());
+  page.people[1].rig = nullptr;
+  EXPECT_EQ(viewer::make_page(page).error().code, Code::invalid_argument);
+}
+
 // With two clips, two heads and a script, so that all of it is there.
 TEST(Page, AxeFindsNoViolations) {
   NEEDS_BROWSER();

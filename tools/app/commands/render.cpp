@@ -13,9 +13,11 @@
 #include "tools/app/commands/report.h"
 #include "tools/app/commands/said_visemes.h"
 #include "tools/app/commands/script_options.h"
+#include "tools/app/commands/shown_people.h"
 #include "tools/app/commands/track_option.h"
 #include "tools/formats/files/cost.h"
 #include "tools/speech/talking/voice_file.h"
+#include "tools/view/render/png.h"
 #include "tools/view/render/scene.h"
 #include "tools/view/studio/frames.h"
 #include "tools/view/studio/head_view.h"
@@ -30,6 +32,7 @@ constexpr int kMostPictures = 400;
 
 struct RenderOptions {
   std::string track;  // of several languages or people
+  PeopleChoice people;
   LengthLimit length;
   std::string input;
   std::string output;
@@ -42,6 +45,7 @@ struct RenderOptions {
   double up = 0;
   double zoom = 1;
   std::string size = "640x640";
+  bool size_told = false;
   std::string background;
   bool captions = false;
   std::string audio;
@@ -58,6 +62,8 @@ struct Pair {
   int x = 0;
   int y = 0;
 };
+
+constexpr Pair kSizeOfPeople = {960, 540};
 
 // "640x480"; both from 1 to `most`.
 std::optional<Pair> parse_pair(const std::string& text, int most) {
@@ -101,6 +107,7 @@ struct Plan {
 Result<Plan> make_plan(const RenderOptions& options) {
   Plan plan;
   plan.size = parse_pair(options.size, kLargestPicture).value_or(Pair{});
+  if (!options.people.people.empty() && !options.size_told) plan.size = kSizeOfPeople;
   plan.sheet = parse_pair(options.sheet, kMostPictures).value_or(Pair{1, 1});
   if (plan.size.x * plan.sheet.x > kLargestPicture ||
       plan.size.y * plan.sheet.y > kLargestPicture) {
@@ -147,14 +154,63 @@ Result<std::vector<studio::ShownFrame>> choose_frames(const RenderOptions& optio
   return frames;
 }
 
-// All pictures in rows of `columns`, as a file.
-Result<std::vector<std::uint8_t>> draw(const Plan& plan,
-                                       const std::vector<studio::ShownFrame>& frames, int columns,
-                                       const RenderOptions& options) {
-  Result<render::Image> sheet = studio::draw_sheet(plan.look, frames, columns, terminal_log());
-  if (!sheet) return sheet.error();
+Result<std::vector<PersonClip>> people_of(const RenderOptions& options, bool interpolate) {
+  return read_people({options.input, wanted_track_of(options.track), options.head, options.length,
+                      options.mouth, options.reading, interpolate},
+                     options.people);
+}
+
+std::vector<studio::StagePerson> stage_of(const std::vector<PersonClip>& people, double turned) {
+  std::vector<studio::StagePerson> all;
+  for (const PersonClip& person : people) {
+    all.push_back({person.head, studio::turned_to_others(all.size(), people.size(), turned),
+                   &person.clip, person.visemes});
+  }
+  return all;
+}
+
+// Columns that make the sheet about as wide as high.
+int columns_for(std::size_t pictures) {
+  int columns = 1;
+  while (std::size_t(columns * columns) < pictures) ++columns;
+  return columns;
+}
+
+// The pictures in rows of `columns`; 0: as fits, and it receives them. `count` receives how many.
+Result<render::Image> sheet_of_face(const Plan& plan, const RenderOptions& options,
+                                    std::size_t& count, int& columns) {
+  const auto frames = choose_frames(options, plan);
+  if (!frames) return frames.error();
+  count = frames->size();
+  if (columns == 0) columns = columns_for(count);
+  return studio::draw_sheet(plan.look, *frames, columns, terminal_log());
+}
+
+// The same of people, by the frames of the first of them.
+Result<render::Image> sheet_of_people(const Plan& plan, const RenderOptions& options,
+                                      std::size_t& count, int& columns) {
+  const auto people = people_of(options, false);
+  if (!people) return people.error();
+  const fap::Sequence& clip = people->front().clip;
+  const auto frames = options.frame >= 0 ? studio::frame_number(clip, options.frame)
+                      : !options.times.empty()
+                          ? studio::frames_at(clip, options.times)
+                          : studio::even_frames(clip, plan.sheet.x * plan.sheet.y);
+  if (!frames) return frames.error().in_file(options.input);
+  auto stage =
+      studio::Stage::make(plan.look, stage_of(*people, options.people.turned), terminal_log());
+  if (!stage) return stage.error();
+  std::vector<render::Image> drawn;
+  for (const studio::ShownFrame& shown : *frames) drawn.push_back(stage->draw(shown.seconds));
+  count = drawn.size();
+  if (columns == 0) columns = columns_for(count);
+  return render::contact_sheet(drawn, std::min(columns, int(count)));
+}
+
+Result<std::vector<std::uint8_t>> file_of(const render::Image& sheet,
+                                          const RenderOptions& options) {
   const std::string extension = options.output == "-" ? ".png" : extension_of(options.output);
-  return studio::picture_of(*sheet, extension, studio::picture_quality(options.quality));
+  return studio::picture_of(sheet, extension, studio::picture_quality(options.quality));
 }
 
 const std::string& sound_path(const RenderOptions& options) {
@@ -176,6 +232,44 @@ Result<std::optional<speech::SoundInput>> sound_of(const RenderOptions& options)
   return std::optional<speech::SoundInput>();
 }
 
+// A film with the sound of the options.
+Result<int> write_with_sound(const RenderOptions& options, const fap::Sequence& clip,
+                             const std::vector<media::TextTrack>& texts,
+                             const studio::FilmOptions& preview) {
+  const Result<std::optional<speech::SoundInput>> sound = sound_of(options);
+  if (!sound) return sound.error();
+  media::MuxInput tracks;
+  if (*sound && (*sound)->samples && is_on_disk(sound_path(options))) {
+    tracks.audio_file = &sound_path(options);  // with both of its channels
+  } else if (*sound) {
+    (*sound)->give_to(tracks);
+  }
+  tracks.texts = &texts;
+  return write_preview(options.output, clip, tracks, preview);
+}
+
+Error no_words_for_captions(const RenderOptions& options) {
+  return make_error(Code::not_found, "no words are known for --captions: give them with --script")
+      .in_file(options.input);
+}
+
+Result<int> film_of_people(const RenderOptions& options, studio::FilmOptions preview) {
+  const auto people = people_of(options, true);
+  if (!people) return people.error();
+  const dam::Script words = words_of_people(*people);
+  if (options.captions) {
+    if (words.phones.empty()) return no_words_for_captions(options);
+    preview.captions = &words;
+  }
+  preview.people = stage_of(*people, options.people.turned);
+  RenderOptions sounding = options;
+  const auto own = sound_of_people(options.input, *people);
+  if (!own) return own.error();
+  if (options.audio.empty()) sounding.audio = own->path;
+  const auto texts = speech::carried_texts(words, people->front().labels.language);
+  return write_with_sound(sounding, people->front().clip, texts, preview);
+}
+
 Result<int> render_video(const RenderOptions& options, const Plan& plan) {
   studio::FilmOptions preview{
       .look = plan.look, .quality = options.quality, .audio_bit_rate = options.audio_bit_rate};
@@ -188,6 +282,7 @@ Result<int> render_video(const RenderOptions& options, const Plan& plan) {
   if (!faps) return faps.error();
   if (faps->size() > 3) return usage_error("--curves shows at most three FAPs");
   preview.faps = std::move(*faps);
+  if (!options.people.people.empty()) return film_of_people(options, std::move(preview));
   Result<FaceInput> input = read_face(options.input);
   if (!input) return input.error();
   fap::FillOptions filling = filling_of(options);
@@ -199,37 +294,20 @@ Result<int> render_video(const RenderOptions& options, const Plan& plan) {
   if (!script) return script.error();
   if (!options.script.empty()) preview.script = &*script;
   if (options.captions) {
-    if (script->phones.empty()) {
-      return make_error(Code::not_found,
-                        "no words are known for --captions: give them with --script")
-          .in_file(options.input);
-    }
+    if (script->phones.empty()) return no_words_for_captions(options);
     preview.captions = &*script;
   }
   preview.visemes = said_visemes(*input, *clip, *script, options.mouth);
-  const Result<std::optional<speech::SoundInput>> sound = sound_of(options);
-  if (!sound) return sound.error();
-  media::MuxInput tracks;
-  if (*sound && (*sound)->samples && is_on_disk(sound_path(options))) {
-    tracks.audio_file = &sound_path(options);  // with both of its channels
-  } else if (*sound) {
-    (*sound)->give_to(tracks);
-  }
   const auto texts = speech::carried_tracks(options.input, terminal_log());
-  tracks.texts = &texts;
-  return write_preview(options.output, *clip, tracks, preview);
-}
-
-// Columns that make the sheet about as wide as high.
-int columns_for(std::size_t pictures) {
-  int columns = 1;
-  while (std::size_t(columns * columns) < pictures) ++columns;
-  return columns;
+  return write_with_sound(options, *clip, texts, preview);
 }
 
 Result<int> draw_all(const RenderOptions& options) {
   if (options.input.empty() == options.shapes.empty()) {
     return usage_error("give a file to show, or --shapes visemes or expressions");
+  }
+  if (!options.people.people.empty() && (!options.shapes.empty() || !options.script.empty())) {
+    return usage_error("--people have the words of their file; leave out --shapes and --script");
   }
   const Result<Plan> plan = make_plan(options);
   if (!plan) return usage_error(plan.error().message);
@@ -249,15 +327,17 @@ Result<int> draw_all(const RenderOptions& options) {
         ".png, .jpg and .webp");
   }
   if (film) return render_video(options, *plan);
-  Result<std::vector<studio::ShownFrame>> frames = choose_frames(options, *plan);
-  if (!frames) return frames.error();
-  const int columns = options.sheet.empty() ? columns_for(frames->size()) : plan->sheet.x;
-  const auto file = draw(*plan, *frames, columns, options);
+  std::size_t count = 0;
+  int columns = options.sheet.empty() ? 0 : plan->sheet.x;
+  Result<render::Image> sheet = options.people.people.empty()
+                                    ? sheet_of_face(*plan, options, count, columns)
+                                    : sheet_of_people(*plan, options, count, columns);
+  if (!sheet) return sheet.error();
+  const auto file = file_of(*sheet, options);
   if (!file) return file.error();
   if (auto written = write_file(options.output, *file); !written) return written.error();
-  report_output(options.output,
-                std::to_string(frames->size()) + (frames->size() == 1 ? " picture" : " pictures"),
-                {{"pictures", frames->size()}, {"columns", columns}, {"bytes", file->size()}});
+  report_output(options.output, std::to_string(count) + (count == 1 ? " picture" : " pictures"),
+                {{"pictures", count}, {"columns", columns}, {"bytes", file->size()}});
   return kOk;
 }
 
@@ -294,6 +374,7 @@ void add_options(OptionTable& cli, RenderOptions& options) {
   cli.get("--time")->excludes("--shapes");
   add_length_option(cli, options.length);
   add_head_options(cli, options.head);
+  add_people_options(cli, options.people);
   cli.add("--view", options.view, "front, three-quarter, side, or degrees to the person's left")
       ->type("VIEW")
       ->check(problem_of_view)
@@ -304,10 +385,11 @@ void add_options(OptionTable& cli, RenderOptions& options) {
   cli.add("--zoom", options.zoom, "1: head and shoulders; 2: twice as near")
       ->between(0.2, 20.0)
       ->show_default();
-  cli.add("--size", options.size, "Size of one picture in pixels, WIDTHxHEIGHT")
+  cli.add("--size", options.size, "Size of one picture in pixels, WIDTHxHEIGHT; of people 960x540")
       ->type("WIDTHxHEIGHT")
       ->check(problem_of_pixels)
-      ->show_default();
+      ->show_default()
+      ->sets(options.size_told);
   cli.add("--background", options.background,
           "Behind the head: none (transparent: .webm, .webp, .png), a colour (#336699, white, lime "
           "...) or a picture (.png, .jpg, .webp), which fills the frame; default: grey")
@@ -350,6 +432,7 @@ const Command kRender{
     "  animeme render talk.mp4 --background none -o over.webm    # or frame_%04d.png\n"
     "  animeme render talk.mp4 --sheet 4x3 --head man --view three-quarter "
     "-o sheet.png\n"
+    "  animeme render talk.mp4 --people Ann=woman,Bob=man -o two.mp4   # side by side\n"
     "  animeme render --shapes visemes --size 200x200 -o visemes.png",
     set_up<RenderOptions>};
 

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <span>
+#include <utility>
 
 #include "fap/head/rig.h"
 #include "tools/app/commands/avatar_export.h"
@@ -14,11 +16,13 @@
 #include "tools/app/commands/said_visemes.h"
 #include "tools/app/commands/script_options.h"
 #include "tools/app/commands/shown_heads.h"
+#include "tools/app/commands/shown_people.h"
 #include "tools/app/commands/track_option.h"
 #include "tools/formats/common/text.h"
 #include "tools/formats/media/container.h"
 #include "tools/formats/media/track_labels.h"
 #include "tools/speech/talking/voice_file.h"
+#include "tools/view/studio/stage.h"
 #include "tools/view/viewer/viewer.h"
 
 namespace animeme::tools {
@@ -32,6 +36,7 @@ constexpr int kMostKilobits = 40;         // and with more not better
 
 struct ViewOptions {
   std::string track;  // of several languages or people
+  PeopleChoice people;
   std::string first;
   std::string second;
   std::string output;
@@ -157,7 +162,71 @@ void warn_of_size(const viewer::Page& page, std::size_t size, double seconds) {
   warn(text);
 }
 
+Result<int> write_page(const ViewOptions& options, const viewer::Page& page, std::size_t heads,
+                       double seconds) {
+  const Result<std::string> html = viewer::make_page(page);
+  if (!html) return html.error();
+  if (auto written = write_file(options.output, *html); !written) return written.error();
+  report_output(options.output,
+                megabytes(double(html->size())) + (page.sound ? ", with sound" : ", silent") +
+                    "; open it in a browser",
+                {{"bytes", html->size()},
+                 {"sound", page.sound.has_value()},
+                 {"heads", heads},
+                 {"people", std::max<std::size_t>(page.people.size(), 1)},
+                 {"languages", 1 + page.tracks.size()}});
+  warn_of_size(page, html->size(), seconds);
+  return kOk;
+}
+
+// People side by side.
+Result<int> view_people(const ViewOptions& options) {
+  const media::TrackScope tracks(wanted_track_of(options.track));
+  std::vector<std::string> heads = options.heads.heads;
+  studio::HeadChoice usual = options.heads.rest;
+  if (!heads.empty()) usual.head = heads.front();
+  auto people = read_people({options.first, wanted_track_of(options.track), usual, options.length,
+                             options.mouth, options.reading},
+                            options.people);
+  if (!people) return people.error();
+  const auto own = sound_of_people(options.first, *people);
+  if (!own) return own.error();
+  ViewOptions sounding = options;
+  if (options.audio.empty()) sounding.audio = own->path;
+  auto sound = sound_of(sounding, {options.first});
+  if (!sound) return sound.error();
+  viewer::Page page;
+  page.title = std::filesystem::path(options.first).filename().string();
+  const double seconds = *sound ? (*sound)->seconds : 0;
+  if (*sound) page.sound = std::move((*sound)->sound);
+  page.script = words_of_people(*people);
+  std::map<std::string, std::unique_ptr<ShownHead>> loaded;
+  for (PersonClip& person : *people) {
+    std::unique_ptr<ShownHead>& head = loaded[person.head.head];
+    if (!head) {
+      auto read = load_shown({{person.head.head}, person.head});
+      if (!read) return read.error();
+      head = std::move(read->front());
+    }
+    const double turned =
+        studio::turned_to_others(page.people.size(), people->size(), options.people.turned);
+    page.people.push_back(
+        {&head->head,
+         &head->rig,
+         turned,
+         {std::move(person.clip), person.start, person.name, std::move(person.visemes)}});
+    page.scripts.push_back(std::move(person.script));
+  }
+  return write_page(options, page, loaded.size(), seconds);
+}
+
 Result<int> run(const ViewOptions& options) {
+  if (!options.people.people.empty()) {
+    if (!options.second.empty() || !options.script.empty()) {
+      return usage_error("--people are those of one file, with its words");
+    }
+    return view_people(options);
+  }
   const std::vector<media::TrackLabels> all = tracks_of(options);
   const media::TrackScope tracks(all.empty() ? wanted_track_of(options.track) : all.front());
   if (const std::string problem = problem_of(options.heads); !problem.empty()) {
@@ -201,19 +270,9 @@ Result<int> run(const ViewOptions& options) {
   for (std::size_t i = 1; i < heads.size(); ++i) {
     page.others.push_back({&heads[i]->head, &heads[i]->rig, heads[i]->name});
   }
-  const Result<std::string> html = viewer::make_page(page);
-  if (!html) return html.error();
-  if (auto written = write_file(options.output, *html); !written) return written.error();
-  report_output(options.output,
-                megabytes(double(html->size())) + (page.sound ? ", with sound" : ", silent") +
-                    "; open it in a browser",
-                {{"bytes", html->size()},
-                 {"sound", page.sound.has_value()},
-                 {"heads", heads.size()},
-                 {"languages", 1 + page.tracks.size()}});
-  warn_of_lengths(page, options, seconds);
-  warn_of_size(page, html->size(), seconds);
-  return kOk;
+  const auto written = write_page(options, page, heads.size(), seconds);
+  if (written) warn_of_lengths(page, options, seconds);
+  return written;
 }
 
 void add_options(OptionTable& cli, ViewOptions& options) {
@@ -235,6 +294,7 @@ void add_options(OptionTable& cli, ViewOptions& options) {
   add_sound_options(cli, options.sound, false);
   add_length_option(cli, options.length);
   add_heads_options(cli, options.heads.heads, options.heads.rest);
+  add_people_options(cli, options.people);
   add_track_option(cli, options.track);
 }
 
@@ -248,6 +308,7 @@ const Command kView{
     "  animeme view talk.mp4 --head woman,man,me.glb -o heads.html\n"
     "  animeme view original.fap coded.fba --audio voice.wav -o loss.html\n"
     "  animeme view film.mp4 -o film.html               # all languages of film.mp4, with a menu\n"
+    "  animeme view talk.mp4 --people Ann=woman,Bob=man -o talk.html    # side by side\n"
     "  animeme view lecture.mp4 --audio-codec opus --audio-bitrate 20000 -o lecture.html\n"
     "The page needs no network; ? shows its keys.",
     set_up<ViewOptions>};

@@ -40,46 +40,13 @@ double seconds_of(const media::MuxInput& sound) {
   return double(sound.encoded->length) / sound.encoded->format.sample_rate;
 }
 
-// The face at `seconds`: between two frames, in proportion.
-fap::Frame face_at(const fap::Sequence& clip, double seconds) {
-  const double at = seconds * clip.rate.frames_per_second();
-  const auto last = clip.frames.size() - 1;
-  // A picture that falls on a frame shows it exactly.
-  const auto index = std::size_t(std::clamp(std::floor(at + 1e-6), 0.0, double(last)));
-  fap::Frame frame = clip.frames[index];
-  const double share = at - double(index);
-  if (index == last || share < 1e-3 || frame.mask[1]) return frame;
-  const fap::Frame& next = clip.frames[index + 1];
-  const auto between = [share](std::int32_t a, std::int32_t b) {
-    return std::int32_t(std::lround(a + share * (double(b) - a)));
-  };
-  fap::Expression& mood = frame.expression;
-  if (mood.select1 == next.expression.select1) {
-    mood.intensity1 = between(mood.intensity1, next.expression.intensity1);
+// Of the longest of them.
+double seconds_of_faces(const fap::Sequence& clip, const FilmOptions& options) {
+  double seconds = clip.duration();
+  for (const StagePerson& person : options.people) {
+    if (person.clip != nullptr) seconds = std::max(seconds, person.clip->duration());
   }
-  if (mood.select2 == next.expression.select2) {
-    mood.intensity2 = between(mood.intensity2, next.expression.intensity2);
-  }
-  for (std::size_t fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
-    frame.value[fap] = between(frame.value[fap], next.value[fap]);
-  }
-  return frame;
-}
-
-// What is said there, likewise.
-std::optional<fap::VisemeWeights> said_at(std::span<const fap::VisemeWeights> visemes,
-                                          const fap::Rate& rate, double seconds) {
-  if (visemes.empty()) return std::nullopt;
-  const auto last = visemes.size() - 1;
-  const double at = std::clamp(seconds * rate.frames_per_second(), 0.0, double(last));
-  const auto index = std::size_t(at + 1e-6);
-  fap::VisemeWeights weights = visemes[index];
-  const double share = at - double(index);
-  if (index == last || share < 1e-3) return weights;
-  for (std::size_t v = 0; v < weights.size(); ++v) {
-    weights[v] += share * (visemes[index + 1][v] - weights[v]);
-  }
-  return weights;
+  return seconds;
 }
 
 // Encoders halve the colour, so sides are even.
@@ -98,8 +65,11 @@ Result<Film> render_all(const fap::Sequence& clip, double seconds, const FilmOpt
   HeadLook above = look;  // the head keeps clear of the strip
   const int strip_height = has_strip ? std::min(kStripHeight, look.height / 3) : 0;
   above.height -= strip_height;
-  Result<HeadView> view = HeadView::make(above, log);
-  if (!view) return view.error();
+  std::vector<StagePerson> people = options.people;
+  if (people.empty())
+    people.push_back({.head = look.head, .clip = &clip, .visemes = options.visemes});
+  Result<Stage> stage = Stage::make(above, std::move(people), log);
+  if (!stage) return stage.error();
   plot::Strip strip(clip, {look.width, strip_height, options.faps, options.script,
                            std::clamp(seconds, 0.5, kLongestPage)});
   std::optional<CaptionPainter> captions;
@@ -113,8 +83,7 @@ Result<Film> render_all(const fap::Sequence& clip, double seconds, const FilmOpt
       break;
     }
     const double time = rate.seconds(double(i));
-    const render::Image& image =
-        view->draw(face_at(clip, time), said_at(options.visemes, clip.rate, time));
+    const render::Image& image = stage->draw(time);
     Result<void> taken;
     if (has_strip || captions) {
       rgba = image.rgba;
@@ -149,7 +118,7 @@ Result<Film> write_video(const std::string& path, const fap::Sequence& clip,
   Result<media::VideoEncoder> encoder = media::VideoEncoder::open(settings);
   if (!encoder) return encoder.error();
   Result<Film> film = render_all(
-      clip, std::max(clip.duration(), seconds_of(sound)), options,
+      clip, std::max(seconds_of_faces(clip, options), seconds_of(sound)), options,
       [&](std::span<const std::uint8_t> rgba, std::int64_t) { return encoder->push(rgba); }, log,
       progress);
   if (!film) return film;
@@ -175,7 +144,7 @@ Result<Film> write_pictures(const std::string& path, const fap::Sequence& clip,
     return int(std::lround(rate.seconds(double(picture)) * 1000));
   };
   Result<Film> film = render_all(
-      clip, clip.duration(), options,
+      clip, seconds_of_faces(clip, options), options,
       [&](std::span<const std::uint8_t> rgba, std::int64_t picture) {
         return animation.push(rgba, instant(picture));
       },
@@ -230,7 +199,7 @@ Result<Film> write_sequence(const std::string& path, const fap::Sequence& clip,
     return name.replace(place.at, place.length, digits);
   };
   Result<Film> film = render_all(
-      clip, clip.duration(), options,
+      clip, seconds_of_faces(clip, options), options,
       [&](std::span<const std::uint8_t> rgba, std::int64_t picture) -> Result<void> {
         const auto file = picture_of(
             {options.look.width, options.look.height, {rgba.begin(), rgba.end()}}, ".png");

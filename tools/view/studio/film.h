@@ -14,12 +14,16 @@
 #include "tools/formats/files/log.h"
 #include "tools/formats/media/mux.h"
 #include "tools/view/studio/head_view.h"
+#include "tools/view/studio/stage.h"
 
 namespace animeme::studio {
 
 /// Options for a video.
 struct FilmOptions {
-  HeadLook look;                        ///< head and camera
+  HeadLook look;  ///< head and camera
+  /// Those who are shown, from left to right; the clip is that of one of them. Empty: one, with the
+  /// head of `look`.
+  std::vector<StagePerson> people = {};
   std::optional<fap::Rate> rate;        ///< frames a second; nullopt: rate of the clip
   int quality = 20;                     ///< as VideoSettings::quality
   const dam::Script* script = nullptr;  ///< phones to show below; nullptr: none

@@ -99,11 +99,44 @@ Json caption_lines(const dam::Script& script) {
   return lines;
 }
 
+// Those of several people, each line as one of them says it, by time.
+Json caption_lines_of(const std::vector<dam::Script>& scripts) {
+  std::vector<Json> lines;
+  for (const dam::Script& script : scripts) {
+    const Json own = caption_lines(script);
+    lines.insert(lines.end(), own.begin(), own.end());
+  }
+  const auto start = [](const Json& line) { return line.front().front().get<double>(); };
+  std::stable_sort(lines.begin(), lines.end(),
+                   [&](const Json& a, const Json& b) { return start(a) < start(b); });
+  return json_list(lines, [](const Json& line) { return line; });
+}
+
+// The number of each one's head, from 0: who has the same shares it.
+std::vector<std::size_t> heads_of(const std::vector<PagePerson>& people) {
+  std::vector<const head::Head*> heads;
+  std::vector<std::size_t> numbers;
+  for (const PagePerson& person : people) {
+    const auto known = std::find(heads.begin(), heads.end(), person.head);
+    numbers.push_back(std::size_t(known - heads.begin()));
+    if (known == heads.end()) heads.push_back(person.head);
+  }
+  return numbers;
+}
+
 Json facts_of(const Page& page) {
   Json facts{{"faps", json_list(fap::kFaps, fap_of)},
              {"groups", json_list(fap::kGroups, &fap::GroupInfo::name)},
              {"phones", json_list(page.script.phones, phone_of)},
-             {"captions", caption_lines(page.script)}};
+             {"captions",
+              page.scripts.empty() ? caption_lines(page.script) : caption_lines_of(page.scripts)}};
+  const std::vector<std::size_t> heads = heads_of(page.people);
+  if (!page.people.empty()) facts["people"] = Json::array();
+  for (std::size_t i = 0; i < heads.size(); ++i) {
+    const PagePerson& person = page.people[i];
+    facts["people"].push_back(
+        {{"name", person.clip.name}, {"model", heads[i]}, {"turned", person.turned}});
+  }
   if (page.sound) facts["sound"] = page.sound->type;
   if (!page.tracks.empty()) {
     facts["tracks"] = Json::array({Json{{"lang", page.lang}, {"speaker", page.speaker}}});
@@ -127,10 +160,32 @@ std::string data_element(const std::string& id, const std::string& text) {
   return "<script type=\"text/plain\" id=\"" + id + "\">" + text + "</script>\n";
 }
 
+// Heads and clips of people.
+std::string people_elements(const Page& page) {
+  std::string out;
+  const std::vector<std::size_t> heads = heads_of(page.people);
+  std::size_t next = 0;  // head
+  for (std::size_t i = 0; i < heads.size(); ++i) {
+    const PagePerson& person = page.people[i];
+    if (heads[i] == next) {
+      const std::string id = next == 0 ? "model" : "model_" + std::to_string(next);
+      out += data_element(id, packed(pack_head(*person.head, *person.rig)));
+      ++next;
+    }
+    out += data_element("clip" + std::to_string(i), pack_clip(person.clip, *person.rig));
+  }
+  return out;
+}
+
 std::string data_elements(const Page& page) {
   std::string out = "<script type=\"application/json\" id=\"facts\">" +
-                    script_text(facts_of(page)) + "</script>\n" +
-                    data_element("model", packed(pack_head(*page.head, *page.rig)));
+                    script_text(facts_of(page)) + "</script>\n";
+  if (!page.people.empty()) {
+    out += people_elements(page);
+    if (page.sound) out += data_element("sound", detail::base64(page.sound->file));
+    return out;
+  }
+  out += data_element("model", packed(pack_head(*page.head, *page.rig)));
   std::vector<std::string> clips;
   for (std::size_t i = 0; i < page.clips.size(); ++i) {
     clips.push_back(pack_clip(page.clips[i], *page.rig));
@@ -192,9 +247,38 @@ std::string head_modules() {
          std::string(detail::kHeadModules);
 }
 
+bool is_empty(const Clip& clip) { return clip.motion.frames.empty() || !clip.motion.rate.valid(); }
+
+Result<void> check_people(const Page& page) {
+  constexpr std::size_t kMostPeople = 8;
+  if (page.people.size() > kMostPeople) {
+    return make_error(Code::invalid_argument, "a page shows at most eight people");
+  }
+  for (const PagePerson& person : page.people) {
+    if (person.head == nullptr || person.rig == nullptr || is_empty(person.clip)) {
+      return make_error(Code::invalid_argument, "a person needs a head, its rig and a clip");
+    }
+  }
+  return {};
+}
+
+std::string page_of(const Page& page, const std::string& title) {
+  // Through JSON and back: what is no UTF-8 becomes a replacement mark.
+  const std::string name = Json::parse(detail::text_of(title))->text();
+  const std::string script = head_modules() + std::string(detail::kPageModules);
+  return filled(detail::kTemplate, {{"<!--title-->", tools::escape_xml(name)},
+                                    {"/*style*/", std::string(detail::kStyle)},
+                                    {"<!--data-->", data_elements(page)},
+                                    {"/*script*/", script}});
+}
+
 }  // namespace
 
 Result<std::string> make_page(const Page& page) {
+  if (!page.people.empty()) {
+    if (auto good = check_people(page); !good) return good.error();
+    return page_of(page, page.title.empty() ? page.people.front().clip.name : page.title);
+  }
   if (page.head == nullptr || page.rig == nullptr) {
     return make_error(Code::invalid_argument, "a page needs a head and its rig");
   }
@@ -209,21 +293,12 @@ Result<std::string> make_page(const Page& page) {
   if (page.clips.size() > 1 && !page.tracks.empty()) {
     return make_error(Code::invalid_argument, "two clips are compared in one language");
   }
-  const auto empty = [](const Clip& clip) {
-    return clip.motion.frames.empty() || !clip.motion.rate.valid();
-  };
-  if (std::any_of(page.clips.begin(), page.clips.end(), empty) ||
+  if (std::any_of(page.clips.begin(), page.clips.end(), is_empty) ||
       std::any_of(page.tracks.begin(), page.tracks.end(),
-                  [&](const OtherTrack& track) { return empty(track.clip); })) {
+                  [&](const OtherTrack& track) { return is_empty(track.clip); })) {
     return make_error(Code::invalid_argument, "a clip needs frames and a rate");
   }
-  // Through JSON and back: what is no UTF-8 becomes a replacement mark.
-  const std::string name = Json::parse(detail::text_of(page.clips[0].name))->text();
-  const std::string script = head_modules() + std::string(detail::kPageModules);
-  return filled(detail::kTemplate, {{"<!--title-->", tools::escape_xml(name)},
-                                    {"/*style*/", std::string(detail::kStyle)},
-                                    {"<!--data-->", data_elements(page)},
-                                    {"/*script*/", script}});
+  return page_of(page, page.clips[0].name);
 }
 
 std::string_view head_script() {

@@ -58,6 +58,14 @@ struct OtherTrack {
   dam::Script script;          ///< what is said; empty: none
 };
 
+/// One of people who are shown side by side.
+struct PagePerson {
+  const head::Head* head = nullptr;  ///< borrowed; may be that of another one
+  const head::Rig* rig = nullptr;    ///< borrowed
+  double turned = 0;                 ///< degrees that they are seen further from their left
+  Clip clip;                         ///< the face; its name is theirs
+};
+
 /// Contents of a page; heads and rigs are borrowed.
 struct Page {
   const head::Head* head = nullptr;  ///< borrowed
@@ -73,6 +81,12 @@ struct Page {
   std::vector<OtherTrack> tracks;
   std::string lang;     ///< of the first one: language tag
   std::string speaker;  ///< of the first one
+  /// People side by side, from left to right, two to eight: in place of `clips`, `head`, `rig`,
+  /// `others` and `tracks`. `script` is what all of them say.
+  std::vector<PagePerson> people;
+  /// With `people`: what each of them says, for captions; may be empty.
+  std::vector<dam::Script> scripts;
+  std::string title;  ///< of the page with `people`; else the name of its first clip
 };
 
 /// Makes the page. The same input gives the same bytes with the same zlib. External texts (names,

@@ -1,4 +1,4 @@
-// node viewer_report.js looks|other|tracks|sound|speeds|texts|says|screens|axe|sheet|picture|live
+// node viewer_report.js looks|other|people|tracks|sound|speeds|texts|says|screens|axe|sheet|picture|live
 // PAGE.html FOLDER: what Chromium makes of a page, as
 // JSON.
 //
@@ -7,6 +7,8 @@
 //   2, [x, y],
 //   below the nose.
 // other: the same vertices of the second head of a page, chosen by the keyboard; `list` of heads.
+// people: what two heads side by side do: `names`, how far each one's skin `moved` between the
+//   frames 0 and 1 (cm), where chins and noses are, the words that are `said` at two times.
 // tracks: plays five seconds and a half; behind two and a half the menu of languages chooses the
 // second; `list` of
 //   the menu, the state when the first is `back`, and where the address `asked` for German.
@@ -118,6 +120,41 @@ async function press(page, key, code, number) {
   for (const type of ['rawKeyDown', 'keyUp']) {
     await page.send('Input.dispatchKeyEvent', {type, key, code, windowsVirtualKeyCode: number});
   }
+}
+
+// Where a feature point of each head is, as a share of the width of the picture.
+function places(points, id, width) {
+  return [0, 1].map((head) =>
+    points.find((point) => point.id === id && point.head === head).x / width);
+}
+
+async function people(page, file, folder) {
+  await page.resize(1000, 800);
+  await open(page, file, '?frame=0');
+  const report = {title: await page.evaluate('document.getElementById("title").textContent'),
+    names: await page.evaluate(
+        '[...document.querySelectorAll(".name")].map((each) => each.textContent)'), said: []};
+  const skins = () => page.evaluate(() => [0, 1].map((head) =>
+    Array.from(window.animeme.vertices('skin', head))));
+  await show(page, 0);
+  const before = await skins();
+  await show(page, 1);
+  const after = await skins();
+  report.moved = before.map((skin, head) =>
+    skin.reduce((most, x, i) => Math.max(most, Math.abs(x - after[head][i])), 0));
+  const points = await page.evaluate('window.animeme.points()');
+  const width = await page.evaluate('document.getElementById("picture").clientWidth');
+  report.chin = places(points, '2.1', width);
+  report.nose = places(points, '9.3', width);
+  for (const time of [1.2, 2.2]) {
+    await page.evaluate((to) => {
+      window.animeme.seek(to);
+      window.animeme.draw();
+    }, time);
+    report.said.push(await page.evaluate('document.querySelector("#now b").textContent'));
+  }
+  await page.screenshot(path.join(folder, 'people.png'));
+  return report;
 }
 
 async function other(page, file, folder) {
@@ -377,7 +414,7 @@ async function main([kind, file, folder]) {
   const browser = await launch({flags: FLAGS});
   try {
     const page = await browser.open();
-    const report = await {looks, other, tracks, sound, speeds, texts, says, screens, axe, sheet,
+    const report = await {looks, other, people, tracks, sound, speeds, texts, says, screens, axe, sheet,
         picture, live}[kind](page, path.resolve(file), folder, open);
     report.messages = page.messages;
     process.stdout.write(JSON.stringify(report) + '\n');

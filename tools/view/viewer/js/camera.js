@@ -29,10 +29,10 @@ export class Camera {
   }
 
   /** What it looks at: nearer pictures have the face in their middle. */
-  get target() {
+  targetOf(home) {
     const t = Math.min(Math.max((this.zoom - 1) / 0.8, 0), 1);
     const near = t * t * (3 - 2 * t);
-    return sum([this.home.target, 1 - near], [this.home.near, near], [this.offset, 1]);
+    return sum([home.target, 1 - near], [home.near, near], [this.offset, 1]);
   }
 
   turn(left, up) {
@@ -56,19 +56,21 @@ export class Camera {
     this.onChange();
   }
 
-  axes() {
-    const back = [Math.sin(this.left) * Math.cos(this.up), Math.sin(this.up),
-      Math.cos(this.left) * Math.cos(this.up)];
+  axes(turned = 0) {
+    const left = this.left + turned;
+    const back = [Math.sin(left) * Math.cos(this.up), Math.sin(this.up),
+      Math.cos(left) * Math.cos(this.up)];
     const right = normalised(cross([0, 1, 0], back));
     return {back, right, up: cross(back, right)};
   }
 
   /** For a viewport [x, y, width, height] in pixels of the canvas, y up: the matrix, the lights,
-      and project(point) that gives [x, y] there, y down. */
-  view(viewport) {
-    const {right, up, back} = this.axes();
-    const {distance, angle} = this.home;
-    const eye = sum([this.target, 1], [back, distance]);
+      and project(point) that gives [x, y] there, y down. `turned`: radians further to the left;
+      `home`: of another model. */
+  view(viewport, turned = 0, home = this.home) {
+    const {right, up, back} = this.axes(turned);
+    const {distance, angle} = home;
+    const eye = sum([this.targetOf(home), 1], [back, distance]);
     const [, , width, height] = viewport;
     const aspect = width / height;
     const focus = this.zoom / (Math.tan(angle / 2) * Math.max(1, NARROW / aspect));

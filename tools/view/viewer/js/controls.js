@@ -36,7 +36,7 @@ export class Controls {
     for (const radio of document.getElementsByName('mode')) {
       radio.addEventListener('change', () => app.set('mode', radio.value));
     }
-    byId('modes').hidden = app.clips.length < 2;
+    byId('modes').hidden = app.clips.length < 2 || Boolean(app.people);
     byId('whose').hidden = app.heads.length < 2 || !app.viewport.view;
     byId('heads').replaceChildren(...app.heads.map((name, i) => new Option(name, i)));
     byId('heads').addEventListener('change', (event) => app.showHead(Number(event.target.value)));

@@ -64,7 +64,7 @@ export class Curves {
     small.textContent = unit;
     label.append(name, small, ...this.app.clips.map((_, i) => {
       const value = document.createElement('span');
-      value.className = `value clip${i}`;
+      value.className = `value clip${i} clip${i % 4}`;
       return value;
     }));
     return label;
@@ -212,7 +212,7 @@ export class Curves {
     }
     // The second clip lies below and is wider, so that both are seen where they agree.
     for (let i = this.app.clips.length - 1; i >= 0; --i) {
-      pen.strokeStyle = colour(`clip${i}`);
+      pen.strokeStyle = colour(`clip${i % 4}`);
       pen.globalAlpha = i ? 0.55 : 1;
       pen.lineWidth = i ? 4 : 1.5;
       pen.beginPath();

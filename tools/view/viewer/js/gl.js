@@ -71,6 +71,11 @@ export class Renderer {
     this.gl.clear(this.gl.COLOR_BUFFER_BIT | this.gl.DEPTH_BUFFER_BIT);
   }
 
+  /** What is drawn from now on lies over what is there. */
+  clearDepth() {
+    this.gl.clear(this.gl.DEPTH_BUFFER_BIT);
+  }
+
   /** `view`: what Camera.view() gives, with the place in the canvas. `style`: {tint: [r, g, b,
       share], opacity, wire: [r, g, b, a] or null}; less than full opacity lies over what is there
       already. */

@@ -16,14 +16,19 @@ import {Rig} from './rig.js';
 const PLAIN = [0, 0, 0, 0];
 const GHOST = [0.10, 0.35, 0.85, 0.35];  // the second head where both are in one place
 const WIRE = [0.05, 0.07, 0.12, 0.30];
+const WIDER = 1.3;  // each of several people gets so much more than a share of the width
 const HEAT_TOP = 0.2;  // cm that are shown in the strongest colour
 
 export class HeadView {
-  /** `count` 2: a second head of the same model, to compare. */
-  constructor(canvas, model, count = 1) {
+  /**
+   * `count` 2: a second head of the same model, to compare. `people`: heads side by side instead,
+   * [{model, turned}], each seen from so many degrees further to its left.
+   */
+  constructor(canvas, model, count = 1, people = null) {
     this.canvas = canvas;
     this.model = model;
     this.count = count;
+    this.people = people;
     this.camera = new Camera(model.camera);
     this.camera.onChange = () => this.onNeed();
     /** 'first', 'second', 'side' (by side), 'ghost' (one over the other), 'heat' (distance). */
@@ -42,34 +47,53 @@ export class HeadView {
 
   setUp() {
     this.kept = new Map();  // what was made of each model
-    this.setModel(this.model);
+    if (this.people) this.seat();
+    else this.setModel(this.model);
+  }
+
+  // Each of the people has a head of their own.
+  seat() {
+    const before = this.places || [];
+    this.take(this.people.map(({model}, i) => this.made(model, before[i] && [before[i].rig])));
+  }
+
+  // What is shown: by head the renderer, rig and meshes.
+  take(made) {
+    this.places = made.flatMap(({renderer, rigs, meshes}) =>
+      rigs.map((rig, i) => ({renderer, rig, meshes: meshes[i]})));
+    this.rigs = this.places.map(({rig}) => rig);
+    this.meshes = this.places.map(({meshes}) => meshes);
+    this.ready = Promise.all(made.map(({ready}) => ready));
+    this.stale = this.rigs.map(() => true);
+    this.hot = false;
+    this.wait(made.map(({renderer}) => renderer.materials));
   }
 
   /** Takes another head, which stands as it was left: pose() it. */
   setModel(model) {
     this.model = model;
     this.camera.home = model.camera;
-    if (!this.kept.has(model)) this.kept.set(model, this.made(model));
-    Object.assign(this, this.kept.get(model));
-    this.stale = this.rigs.map(() => true);
-    this.hot = false;
-    this.wait();
+    if (!this.kept.has(model)) {
+      const same = this.rigs && this.rigs[0].model === model;
+      this.kept.set(model, this.made(model, same && this.rigs));
+    }
+    this.take([this.kept.get(model)]);
   }
 
   // A head without its pictures is a white statue: it is not seen until they are there.
-  wait() {
-    const {materials} = this.renderer;
-    this.canvas.style.opacity = materials.complete ? '' : '0';
-    materials.ready.then(() => {
-      materials.complete = true;
-      if (this.renderer.materials === materials) this.canvas.style.opacity = '';
+  wait(materials) {
+    this.canvas.style.opacity = materials.every(({complete}) => complete) ? '' : '0';
+    const {places} = this;
+    Promise.all(materials.map(({ready}) => ready)).then(() => {
+      for (const each of materials) each.complete = true;
+      if (this.places === places) this.canvas.style.opacity = '';
     });
   }
 
-  made(model) {
+  made(model, known) {
     const renderer = new Renderer(this.canvas, model, () => this.onNeed());
-    const rigs = this.rigs && model === this.model && this.rigs[0].model === model ? this.rigs :
-        Array.from({length: this.count}, () => new Rig(model));
+    const rigs = known ||
+        Array.from({length: this.people ? 1 : this.count}, () => new Rig(model));
     // ready: its pictures are decoded, and it is seen.
     return {renderer, rigs, meshes: rigs.map((rig) => renderer.load(rig)),
         ready: renderer.materials.ready};
@@ -107,6 +131,13 @@ export class HeadView {
   /** Which heads are shown where: [{head, view}]. */
   views() {
     const {width, height} = this.canvas;
+    if (this.people) {
+      const share = width / this.people.length;
+      const own = Math.min(width, Math.round(share * WIDER));
+      return this.people.map(({model, turned}, head) => ({head, view: this.camera.view(
+          [Math.round((head + 0.5) * share - own / 2), 0, own, height], turned * Math.PI / 180,
+          model.camera)}));
+    }
     const whole = this.camera.view([0, 0, width, height]);
     if (this.rigs.length < 2 || this.mode === 'first' || this.mode === 'heat') {
       return [{head: 0, view: whole}];
@@ -120,15 +151,15 @@ export class HeadView {
 
   draw() {
     this.resize();
-    this.renderer.clear();
-    if (this.rigs.length > 1) this.updateHeat();
+    this.places[0].renderer.clear();
+    if (this.rigs.length > 1 && !this.people) this.updateHeat();
     this.views().forEach(({head, view}, i) => {
-      const rig = this.rigs[head];
-      const meshes = this.meshes[head];
-      if (this.stale[head]) this.renderer.update(meshes, rig);
+      const {renderer, rig, meshes} = this.places[head];
+      if (this.stale[head]) renderer.update(meshes, rig);
       this.stale[head] = false;
+      if (i > 0 && this.people) renderer.clearDepth();  // whose shoulder reaches over is in front
       const over = i > 0 && this.mode === 'ghost';
-      this.renderer.draw(meshes, rig, view, {
+      renderer.draw(meshes, rig, view, {
         tint: over ? GHOST : PLAIN, opacity: over ? 0.45 : 1, wire: this.wire ? WIRE : null,
       });
     });
@@ -170,7 +201,7 @@ export class HeadView {
   points() {
     const scale = this.canvas.clientWidth / this.canvas.width || 1;
     return this.views().flatMap(({head, view}) =>
-        this.model.points.map(({id, name, part, vertex}) => {
+        this.rigs[head].model.points.map(({id, name, part, vertex}) => {
       const rig = this.rigs[head];
       const m = rig.transforms[part];
       const at = (array, shift) => [0, 1, 2].map((row) => m[row * 3] * array[vertex * 3] +

@@ -30,12 +30,22 @@ function trackName({lang, speaker}) {
   return [speaker, language].filter(Boolean).join(', ');
 }
 
+/** The element with the name of one of the people, above their head. */
+function nameOfPerson(_, number, people) {
+  const id = `name${number}`;
+  const element = byId(id) || Object.assign(document.createElement('p'), {id, className: 'name'});
+  byId('viewport').append(element);
+  element.style.left = `calc(${100 * number / people.length}% + 10px)`;
+  return element;
+}
+
 /** What the page does; controls and keys call it. */
 class App {
   /**
-   * `model`: a head, null for none, an Error where it cannot be; `clips`: the bytes of one or two.
+   * `model`: a head, null for none, an Error where it cannot be; `clips`: the bytes of one or two,
+   * or of people; `people`: as Viewport has them.
    */
-  constructor(facts, model, clips) {
+  constructor(facts, model, clips, people) {
     this.clips = clips.filter(Boolean).map((bytes) => new Clip(bytes));
     this.hasSound = Boolean(facts.sound);
     this.options = {wire: false, points: false, between: true, mode: 'first'};
@@ -47,8 +57,10 @@ class App {
     this.viewport = new Viewport({
       element: byId('viewport'), canvas: byId('picture'), overlay: byId('overlay'),
           tip: byId('tip'),
-      message: byId('message'), readout: byId('readout'), names: [byId('name0'), byId('name1')],
-    }, model, this.clips, facts.faps);
+      message: byId('message'), readout: byId('readout'),
+      names: people ? people.map(nameOfPerson) : [byId('name0'), byId('name1')],
+    }, model, this.clips, facts.faps, people);
+    this.people = people;
     this.heads = facts.heads || [];
     this.models = [model];
     this.whose = 0;
@@ -272,8 +284,18 @@ async function start() {
   await rigReady;
   const model = flag('nohead') ? null :
       await data('model').then(readModel).catch((problem) => problem);
-  const app = new App(facts, model, [await data('clip0'), await data('clip1')]);
-  byId('title').textContent = app.clips.map((clip) => clip.name).join(' / ');
+  const clips = await Promise.all((facts.people || [0, 1]).map((_, i) => data(`clip${i}`)));
+  let people = facts.people || null;
+  if (people && model && !(model instanceof Error)) {
+    const models = [model];
+    for (const {model: which} of people) {
+      models[which] = models[which] || await data(`model_${which}`).then(readModel);
+    }
+    people = people.map((person) => ({...person, model: models[person.model]}));
+  }
+  const app = new App(facts, model, clips, people);
+  byId('title').textContent = people ? document.title :
+      app.clips.map((clip) => clip.name).join(' / ');
   byId('viewport').classList.toggle('says', facts.phones.length > 0);
   const table = keyTable(app);
   fillHelp(byId('keylist'), table);
@@ -291,6 +313,7 @@ async function start() {
       ...app.drawn, playing: player.playing, duration: player.duration, rate: player.rate,
       position: player.position(), frames: app.clips[0].frames, clips: app.clips.length,
       sound: Boolean(player.buffer), loop: player.loop(), faps: app.curves.faps,
+      people: (app.people || []).map(({name}) => name),
       head: Boolean(viewport.view), whose: app.heads[app.whose],
       track: app.tracks[app.track].name, lang: app.tracks[app.track].lang, ...app.options,
     }),

@@ -6,9 +6,12 @@ import {PointOverlay} from './points.js';
 export const MODES = ['first', 'second', 'side', 'ghost', 'heat'];
 
 export class Viewport {
-  /** `model` null: without a head, an Error: why there is none; `table`: the FAPs of the page. */
-  constructor(elements, model, clips, table) {
-    Object.assign(this, {...elements, clips});
+  /**
+   * `model` null: without a head, an Error: why there is none; `table`: the FAPs of the page;
+   * `people`: null, or who is shown side by side, a clip each, as HeadView takes them.
+   */
+  constructor(elements, model, clips, table, people = null) {
+    Object.assign(this, {...elements, clips, people});
     const moving = table.filter(({number}) => clips.some((clip) => clip.columns[number]));
     const numbers = (isAngle) => moving.filter(({unit}) => (unit === 'AU') === isAngle)
         .map(({number}) => number);
@@ -24,7 +27,7 @@ export class Viewport {
 
   open(model) {
     try {
-      this.view = new HeadView(this.canvas, model, this.clips.length);
+      this.view = new HeadView(this.canvas, model, this.clips.length, this.people);
     } catch (error) {
       this.refuse(error);
       return;
@@ -63,6 +66,10 @@ export class Viewport {
   }
 
   setMode(mode) {
+    if (this.people) {
+      this.element.dataset.mode = 'people';
+      return 'people';
+    }
     const chosen = this.clips.length > 1 && MODES.includes(mode) ? mode : 'first';
     if (this.view) this.view.mode = chosen;
     this.element.dataset.mode = this.clips.length > 1 ? chosen : 'only';
@@ -81,7 +88,7 @@ export class Viewport {
       this.view.draw();
       this.points.draw();
     }
-    if (values.length > 1) this.tellDifference(values);
+    if (values.length > 1 && !this.people) this.tellDifference(values);
   }
 
   // Distances and angles each have their unit; FAPs that never move say nothing.
