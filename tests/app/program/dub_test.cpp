@@ -247,6 +247,31 @@ TEST(Dub, OnePartThatFails) {
   EXPECT_THAT(test::slurp(dir / "phones/report.json"), HasSubstr("give subtitles"));
 }
 
+// Of a desktop and a phone, in light and dark: with subtitles that are too long, and a row that
+// failed.
+TEST(DubPage, AxeFindsNoViolations) {
+  const std::string scripts = std::string(test::kSourceFolder) + "/tests/readers/js/";
+  if (!test::has_program("chromium") || !test::has_program("node") ||
+      !fs::exists(scripts + "node_modules/axe-core")) {
+    GTEST_SKIP() << "chromium, node or axe-core is missing (tools/setup.sh full installs them)";
+  }
+  const TempDir dir;
+  write_subtitles(dir);
+  const std::string folder = dir.path().string() + "/";
+  spill(dir / "film.csv", "lang,subtitles,speaker\nde," + folder + "de.srt,\nes," + folder +
+                              "es.srt,Ana María\nfr," + folder + "nowhere.srt,\n");
+  json_of(dub_line(dir / "film.csv", dir / "out"), 1);
+  const auto said =
+      test::run_command({"node", scripts + "page_axe.js", dir / "out/report.html", "1200", "390"});
+  const auto report = test::Json::parse(said.out, nullptr, false);
+  ASSERT_FALSE(report.is_discarded()) << said.err;
+  ASSERT_TRUE(report.contains("checked"));
+  EXPECT_EQ(report["violations"], test::Json::array());
+  EXPECT_EQ(report["wide"], test::Json::array()) << "it scrolls sideways";
+  ASSERT_EQ(report["checked"].size(), 4u);
+  for (const auto& checked : report["checked"]) EXPECT_GT(int(checked), 20);
+}
+
 TEST(Dub, TellsWhatIsWrongWithATable) {
   const TempDir dir;
   spill(dir / "de.srt", cue(1, 0.3, 2, "Hallo!"));
