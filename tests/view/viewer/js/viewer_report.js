@@ -1,6 +1,5 @@
-// node viewer_report.js looks|other|people|tracks|sound|speeds|texts|says|screens|axe|sheet|picture|live
-// PAGE.html FOLDER: what Chromium makes of a page, as
-// JSON.
+// node viewer_report.js KIND PAGE.html FOLDER: what Chromium makes of a page, as JSON; KIND is
+// looks|other|people|tracks|sound|speeds|texts|says|screens|axe|sheet|picture|live.
 //
 // looks: vertices of the frames 0 .. 7 as 32-bit floats in FOLDER/<part>_<frame>.f32; how much the
 //   mouth and the forehead change between the frames 0 and 1; `specks` of these frames and of frame
@@ -414,8 +413,8 @@ async function main([kind, file, folder]) {
   const browser = await launch({flags: FLAGS});
   try {
     const page = await browser.open();
-    const report = await {looks, other, people, tracks, sound, speeds, texts, says, screens, axe, sheet,
-        picture, live}[kind](page, path.resolve(file), folder, open);
+    const report = await {looks, other, people, tracks, sound, speeds, texts, says, screens, axe,
+        sheet, picture, live}[kind](page, path.resolve(file), folder, open);
     report.messages = page.messages;
     process.stdout.write(JSON.stringify(report) + '\n');
   } finally {
