@@ -272,11 +272,12 @@ Result<CommonSound> sound_of_all(const SpeakOptions& options, std::vector<Person
     }
     return sound;
   }
-  if (parts.empty()) return sound;
+  const auto is_heard = [](const Person& person) { return person.spoken.has_sound(); };
+  if (std::none_of(people.begin(), people.end(), is_heard)) return sound;
   auto folder = ScratchFolder::make();
   if (!folder) return folder.error();
   sound.folder = std::move(*folder);
-  // What fitting has put elsewhere is in no file.
+  // What is in memory only.
   for (std::size_t i = 0; i < people.size(); ++i) {
     const speech::Spoken& spoken = people[i].spoken;
     if (!spoken.recording.empty() || !spoken.audio) continue;
