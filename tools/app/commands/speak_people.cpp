@@ -404,11 +404,9 @@ Json people_json(const SpeakOptions& options, const std::vector<Person>& people)
 }  // namespace
 
 void add_cast_options(OptionTable& cli, SpeakOptions& options) {
-  cli.add(
-         "--cast", options.cast,
-         "A face for each speaker of the script in one file: all, or a name with lang=, model=, "
-         "audio=, tts=, mood=, pitch=, speed= (Ann,lang=en+f3); may be repeated. Listeners look at "
-         "who speaks")
+  cli.add("--cast", options.cast,
+          "A face for each speaker of the script, in one file: all, or NAME with lang=, model=, "
+          "audio=, tts=, mood=, pitch=, speed= (Ann,lang=en+f3); may be repeated")
       ->value("NAME")
       ->check(problem_of<parse_cast_member>)
       ->one_at_a_time();
