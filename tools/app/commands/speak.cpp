@@ -379,7 +379,7 @@ void add_options(OptionTable& cli, SpeakOptions& options) {
       "--rms --kbps --default-ranges --intra-seconds --audio-codec "
       "--audio-bitrate --exact --min-confidence "
       "--no-tongue --visemes --expressions --look --still --seed --keep --bend --fit --turns "
-      "--report --speak-marks --no-closure --max-seconds");
+      "--report --speak-marks --script-format --no-closure --max-seconds");
 }
 
 const Command kSpeak{
