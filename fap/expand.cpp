@@ -166,10 +166,11 @@ Frame viseme_pose(int viseme) {
   const Mouth& m = kMouths[std::size_t(viseme)];
   put(frame, 3, m.jaw);
   for (const int fap : {4, 51}) put(frame, fap, m.upper_down);
-  for (const int fap : {8, 55}) put(frame, fap, m.upper_down * 3 / 4);
+  for (const int fap : {8, 55}) put(frame, fap, m.upper_down * 7 / 8);
   for (const int fap : {5, 52}) put(frame, fap, m.lower_up);
-  // The sides of a lip go down as far as its middle, of round ones further, or it would be a V.
-  for (const int fap : {10, 57}) put(frame, fap, m.lower_up * (m.wide < -40 ? 17 : 16) / 16);
+  // An open mouth is an ellipse: half way to its corners it is 7/8 as high. What presses lips
+  // together does so everywhere.
+  for (const int fap : {10, 57}) put(frame, fap, m.lower_up < 0 ? m.lower_up * 7 / 8 : m.lower_up);
   for (const int fap : {6, 53}) put(frame, fap, m.wide);
   for (const int fap : {12, 59}) put(frame, fap, m.corners_up);
   put(frame, 16, m.push_lower);

@@ -61,7 +61,8 @@ std::optional<Error> check(const HeadParameters& p) {
                {"brow_height", p.brow_height},
                {"brow_thickness", p.brow_thickness},
                {"ear", p.ear},
-               {"lashes", p.lashes, true}};
+               {"lashes", p.lashes, true},
+               {"lines", p.lines, true}};
   for (const auto& size : sizes) {
     const bool good = std::isfinite(size.value) &&
                       (size.may_be_zero ? size.value >= 0 : size.value > 0) && size.value < 100;
@@ -123,6 +124,7 @@ Result<Head> make_head(const HeadParameters& parameters) {
   head.part(Part::lower_teeth) = detail::make_teeth(shape, false);
   head.part(Part::tongue) = detail::make_tongue(shape);
   head.part(Part::hair) = detail::make_hair(shape);
+  detail::add_glasses(shape, head.part(Part::hair));
   head.part(Part::brows) = detail::make_brows(shape);
   head.part(Part::lashes) = detail::make_lashes(shape, skin, head.lash_anchors);
   head.part(Part::body) = detail::make_body(shape);

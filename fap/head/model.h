@@ -181,8 +181,15 @@ struct Head {
 /// The chin: 2.1, or an estimate if the head does not have the point.
 Vec3 chin_of(const Head& head);
 
-/// Hair styles of make_head().
-enum class HairStyle : std::uint8_t { bob, short_cut, fringe };
+/// Hair styles of make_head(): to the chin; cut and combed back; cut, over the forehead; to the
+/// shoulders; combed back into a knot; in tight curls; none.
+enum class HairStyle : std::uint8_t { bob, short_cut, fringe, lengthy, bun, curly, bald };
+
+/// Glasses of make_head(): frames without lenses, part of the hair.
+enum class Glasses : std::uint8_t { none, round, square };
+
+/// Beards of make_head(), as colours of the skin.
+enum class Beard : std::uint8_t { none, stubble, full };
 
 /// Sizes in cm and colours (sRGB, 0xRRGGBB) of a head. Sizes may be changed by about a quarter;
 /// beyond that, parts intersect.
@@ -192,11 +199,11 @@ struct HeadParameters {
   double scale = 1;                       ///< of the whole head
   double skull_width = 7.5;               ///< half width
   double skull_height = 7.6;              ///< above skull centre
-  double face_width = 6.1;                ///< half width at the cheek bones
-  double jaw_width = 3.15;                ///< half width of the lower face
+  double face_width = 5.95;               ///< half width at the cheek bones
+  double jaw_width = 3.3;                 ///< half width of the lower face
   double chin_drop = 9.8;                 ///< chin below the eyes
   double chin_size = 1.3;                 ///< radius
-  double cheek = 2.3;                     ///< roundness of the cheeks
+  double cheek = 2.15;                    ///< roundness of the cheeks
   double brow_ridge = 0.08;               ///< bone above the eyes
   double neck = 3.75;                     ///< half width
   double eye_distance = 3.15;             ///< half the distance of the pupils
@@ -215,7 +222,10 @@ struct HeadParameters {
   double brow_thickness = 0.26;           ///< half height
   double ear = 1.3;                       ///< size
   double lashes = 0.36;                   ///< length
+  double lines = 0;                       ///< of age, 0..1: folds beside nose and mouth, forehead
   HairStyle hair = HairStyle::bob;        ///< see HairStyle
+  Glasses glasses = Glasses::none;        ///< see Glasses
+  Beard beard = Beard::none;              ///< see Beard
   std::uint32_t skin_colour = 0xE8AC88;   ///< sRGB
   std::uint32_t lip_colour = 0xC4605C;    ///< sRGB
   std::uint32_t cheek_colour = 0xDE8468;  ///< sRGB
@@ -225,14 +235,14 @@ struct HeadParameters {
   std::uint32_t cloth_colour = 0x3F6F86;  ///< sRGB
 };
 
-/// "woman", "man", "child"; nullopt for other names.
+/// "woman", "man", "child"; nullopt for other names. More people: people.h.
 std::optional<HeadParameters> head_parameters(std::string_view name);
 /// The names that head_parameters() knows.
 extern const std::array<std::string_view, 3> kHeadNames;
 
 /// Makes a head. Deterministic; about half a second.
-/// Errors: invalid_argument if a size is not finite and positive (smile, nose_bridge, brow_ridge
-/// and lashes may be 0), or the density is not in 0.5..2.
+/// Errors: invalid_argument if a size is not finite and positive (smile, nose_bridge, brow_ridge,
+/// lashes and lines may be 0), or the density is not in 0.5..2.
 Result<Head> make_head(const HeadParameters& parameters = {});
 
 }  // namespace animeme::head

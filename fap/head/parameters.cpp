@@ -54,7 +54,7 @@ HeadParameters child() {
   p.jaw_width = 2.95;
   p.chin_drop = 8.3;
   p.chin_size = 1.1;
-  p.cheek = 2.75;
+  p.cheek = 2.55;
   p.brow_ridge = 0;
   p.neck = 3.0;
   p.eye_distance = 3.2;

@@ -116,6 +116,11 @@ TEST(WindingOfParts, EachIsTurnedForItself) {
     Head head = small();
     for (Triangle& t : head.parts[part].triangles) std::swap(t[1], t[2]);
     const auto turned = head::detail::turn_inside_out(head, float(head.fapu.es), pieces);
+    if (head::Part(part) == head::Part::brows || head::Part(part) == head::Part::lashes) {
+      // Hairs that are thinner than what rays find are left as they are.
+      EXPECT_TRUE(turned.empty());
+      continue;
+    }
     EXPECT_EQ(inside_out(head, small()), 0u) << head::kPartNames[part];
     ASSERT_EQ(turned.size(), 1u) << head::kPartNames[part];
     EXPECT_EQ(turned[0].piece, part);

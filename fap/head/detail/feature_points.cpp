@@ -160,7 +160,11 @@ void ears_and_hair(const Shape& shape, const EarVertices& ears, Finder& find) {
   find.near_front("11.1", "", 0, 5.9);
   find.near("11.3", "11.2", shape.front(4.6, 4.6));
   find.grid("11.4", 0, 0);
-  find.set("11.5", Part::hair, find.furthest(Part::hair, {0, 1, 0}, 0, find.count(Part::hair)));
+  if (shape.p.hair == HairStyle::bald) {
+    find.grid("11.5", 0, 0);
+  } else {
+    find.set("11.5", Part::hair, find.furthest(Part::hair, {0, 1, 0}, 0, find.count(Part::hair)));
+  }
   find.near("11.6", "", {0, 3.4, -9.4});
 }
 

@@ -25,6 +25,9 @@ double rolls(const std::vector<Vec3d>& line, Vec3d p, double radius, double blen
   return d;
 }
 
+// Where the ends are.
+double ends_of(const Shape& shape) { return shape.p.hair == HairStyle::lengthy ? -13.4 : -7.6; }
+
 double bob_field(const Shape& shape, const HairLines& lines, Vec3d p) {
   const HeadParameters& h = shape.p;
   const double x = std::abs(p.x);
@@ -35,7 +38,7 @@ double bob_field(const Shape& shape, const HairLines& lines, Vec3d p) {
   const Vec3d q{x, 0, p.z + 1.6};
   const double wide = 8.1 + 0.75 * std::sin(pi * std::min(drop * 0.95, 1.0));
   const double sides = (std::hypot(q.x / wide, q.z / 8.6) - 1) * 8.2;
-  const double ends = smooth_max(-(p.y + 7.6 + 0.25 * strand(p, 9, 0)), p.y - 3.0, 1.0);
+  const double ends = smooth_max(-(p.y - ends_of(shape) + 0.25 * strand(p, 9, 0)), p.y - 3.0, 1.0);
   double d = smooth_min(cap, smooth_max(sides, ends, 1.4), 1.6);
   // The face looks out; a parting on the right.
   const double shift = p.x + 0.7;
@@ -60,12 +63,14 @@ Vec3d onto(const Surface& hair, Vec3d from, Vec3d away, double height) {
   return outer_hit(hair, from, direction, 16) + direction * height;
 }
 
+// 0..1, scattered over i.
+double scattered(int i) { return double((std::uint32_t(i) * 2654435761u) >> 16 & 1023u) / 1023; }
+
 // From the parting over the side to the ends, which turn in. Angle 0 is in front, pi behind.
-Lock curtain(const Surface& hair, double angle, double end, double width) {
-  constexpr int kPlaces = 22;
+Lock curtain(const Surface& hair, double angle, double end, double above) {
+  constexpr int kPlaces = 15;
   Lock lock;
-  lock.width = width;
-  lock.flatness = 0.34;
+  lock.flatness = 0.42;
   const Vec3d aside{std::sin(angle), 0, std::cos(angle)};
   const Vec3d parting{-1.6, 8.0, 4.5 * std::cos(angle)};
   for (int i = 0; i < kPlaces; ++i) {
@@ -74,7 +79,7 @@ Lock curtain(const Surface& hair, double angle, double end, double width) {
     const double down = std::max((t - 0.42) / 0.58, 0.0);
     const Vec3d from = kInside + Vec3d{0, (end - kInside.y) * down, 0};
     const Vec3d away = mix(parting, aside * 8.5, smooth_step(-0.1, 1.0, over));
-    const double height = 0.12 - 0.5 * smooth_step(0.12, 0.0, t) - 0.9 * smooth_step(0.9, 1.0, t);
+    const double height = above - 0.5 * smooth_step(0.12, 0.0, t) - 0.9 * smooth_step(0.88, 1.0, t);
     lock.places.push_back(onto(hair, from, away, height));
     lock.outwards.push_back(normalised(away));
   }
@@ -83,9 +88,8 @@ Lock curtain(const Surface& hair, double angle, double end, double width) {
 
 // Along the edge of the hair above the face, `above` cm higher.
 Lock fringe(const Surface& hair, const std::vector<Vec3d>& line, double above) {
-  constexpr std::size_t kPlaces = 18;
+  constexpr std::size_t kPlaces = 14;
   Lock lock;
-  lock.width = 0.8;
   std::vector<Vec3d> smooth;
   for (std::size_t i = 0; i < kPlaces; ++i) {
     const double at = double(i) / (kPlaces - 1) * double(line.size() - 1);
@@ -106,24 +110,34 @@ Lock fringe(const Surface& hair, const std::vector<Vec3d>& line, double above) {
   return lock;
 }
 
-void add_bob_locks(const Surface& hair, const HairLines& lines, Vec3 colour, Mesh& mesh) {
-  for (int i = 0; i < 17; ++i) {
-    const double angle = 0.92 + (2 * pi - 1.84) * i / 16;
-    const bool front = i == 0 || i == 16;
-    Lock lock = curtain(hair, angle, -7.1 - 0.35 * (i % 3) + (front ? 0.6 : 0), front ? 1.2 : 1.7);
-    lock.tint = 0.92f + 0.07f * float(i * 5 % 4);
+void add_bob_locks(const Surface& hair, const HairLines& lines, double ends, Vec3 colour,
+                   Mesh& mesh) {
+  constexpr int kCurtains = 76;
+  for (int i = 0; i < kCurtains; ++i) {
+    const double place = (i + 0.7 * scattered(i + 900) - 0.35) / (kCurtains - 1);
+    const double angle = 0.9 + (2 * pi - 1.8) * std::clamp(place, 0.0, 1.0);
+    const bool front = i < 3 || i > kCurtains - 4;
+    const double end = ends + 0.7 * scattered(i) - 0.35 + (front ? 0.5 : 0);
+    Lock lock = curtain(hair, angle, end, 0.04 + 0.2 * scattered(i + 300));
+    lock.width = front ? 0.5 : 0.48 + 0.3 * scattered(i + 500);
+    lock.tint = 0.84f + 0.3f * float(scattered(i + 700));
     add_lock(lock, colour, mesh);
   }
-  for (int i = 2; i >= 0; --i) {
-    Lock left = fringe(hair, lines.left, 0.15 + 1.0 * i);
-    Lock right = fringe(hair, lines.right, 0.15 + 1.0 * i);
-    left.tint = right.tint = 0.95f + 0.08f * float(i);
-    add_lock(left, colour, mesh);
-    add_lock(right, colour, mesh);
+  constexpr int kFringes = 9;
+  for (int i = kFringes - 1; i >= 0; --i) {
+    const double above = 0.05 + 0.31 * i;
+    for (const std::vector<Vec3d>* line : {&lines.left, &lines.right}) {
+      Lock lock = fringe(hair, *line, above);
+      lock.width = 0.4;
+      lock.tint = 0.86f + 0.28f * float(scattered(i * 2 + (line == &lines.left ? 1 : 0)));
+      add_lock(lock, colour, mesh);
+    }
   }
 }
 
 }  // namespace
+
+bool hangs(HairStyle style) { return style == HairStyle::bob || style == HairStyle::lengthy; }
 
 HairLines hair_lines(const Shape& shape) {
   const auto on_skin = [&shape](std::initializer_list<std::array<double, 2>> places) {
@@ -133,25 +147,29 @@ HairLines hair_lines(const Shape& shape) {
   };
   switch (shape.p.hair) {
     case HairStyle::bob:
+    case HairStyle::lengthy:
       return {on_skin({{-1.7, 7.6}, {0.6, 6.6}, {2.9, 5.7}, {4.8, 4.4}, {5.9, 2.6}, {6.2, 0.6}}),
               on_skin({{-1.7, 7.6}, {-3.4, 6.4}, {-5.0, 4.5}, {-5.9, 2.6}, {-6.2, 0.6}})};
     case HairStyle::short_cut:
     case HairStyle::fringe:
+    case HairStyle::bun:
+    case HairStyle::curly:
+    case HairStyle::bald:
       return {};
   }
   return {};
 }
 
 double hair_field(const Shape& shape, const HairLines& lines, Vec3d p) {
-  return shape.p.hair == HairStyle::bob ? bob_field(shape, lines, p) : short_hair_field(shape, p);
+  return hangs(shape.p.hair) ? bob_field(shape, lines, p) : short_hair_field(shape, p);
 }
 
 Mesh make_hair(const Shape& shape) {
-  if (shape.p.hair != HairStyle::bob) return make_short_hair(shape);
+  if (!hangs(shape.p.hair)) return make_short_hair(shape);
   const HairLines lines = hair_lines(shape);
   const auto field = [&](Vec3d p) { return bob_field(shape, lines, p); };
   const Vec3 colour = linear_colour(shape.p.hair_colour);
-  Mesh bob = surface_nets(field, {-11.2, -10.4, -12.4}, {11.2, 14, 11.2},
+  Mesh bob = surface_nets(field, {-11.2, ends_of(shape) - 2.8, -12.4}, {11.2, 14, 11.2},
                           0.64 / std::sqrt(shape.p.density));
   for (const Vec3& v : bob.positions) {
     const Vec3d p(v);
@@ -161,7 +179,7 @@ Mesh make_hair(const Shape& shape) {
   bob.occlusion.assign(bob.positions.size(), 1.0f);
   // What lies below comes last: renderers need not paint it then.
   Mesh mesh;
-  add_bob_locks(field, lines, colour, mesh);
+  add_bob_locks(field, lines, ends_of(shape) + 0.3, colour, mesh);
   append(mesh, bob);
   mesh.surface = SurfaceKind::hair;
   return mesh;

@@ -22,6 +22,27 @@ EarVertices add_ears(const Shape& shape, Mesh& skin) {
 
 namespace {
 
+// Share of the light from above and before that reaches a place: soft shadows of nose, chin and
+// hair.
+template <class Field>
+double open_front(const Field& field, Vec3d p, Vec3d normal) {
+  constexpr std::array<Vec3d, 3> kLights = {
+      {{0.42, 0.62, 0.66}, {0, 0.78, 0.62}, {-0.42, 0.62, 0.66}}};
+  constexpr double kSoft = 3.5;  // the larger, the sharper their edges
+  double open = 0;
+  for (const Vec3d& light : kLights) {
+    double least = 1;
+    double way = 0.25;
+    for (int i = 0; i < 7 && way < 7 && least > 0; ++i) {
+      const double d = field(p + normal * 0.12 + light * way);
+      least = std::min(least, kSoft * d / way);
+      way += std::clamp(d, 0.4, 1.8);
+    }
+    open += std::max(least, 0.0);
+  }
+  return open / kLights.size();
+}
+
 template <class Field>
 void shade_by(const Field& field, double reach, double strength, std::size_t count, Mesh& mesh) {
   std::vector<Vec3> normals;
@@ -48,6 +69,16 @@ void shade_parts(const Shape& shape, const Skin& skin, Head& head) {
   const auto outside = std::size_t(skin.at(skin.layout.bottom, -1)) + 1;
   const std::size_t faces = skin.places.size();
   shade_by(all, 3.2, 0.85, outside, face);
+  std::vector<Vec3> normals;
+  smooth_normals(face.positions, face.triangles, normals);
+  for (std::size_t i = 0; i < outside; ++i) {
+    // Whose front is turned away is dark by itself, and hair hides the rest.
+    const float before = smooth_step(-4.0f, 0.0f, face.positions[i].z) *
+                         smooth_step(8.0f, 6.0f, face.positions[i].y);
+    if (before == 0) continue;
+    const double front = open_front(all, Vec3d(face.positions[i]), Vec3d(normals[i]));
+    face.occlusion[i] *= 1 - 0.4f * before * float(1 - front);
+  }
   const double lips = skin.places[skin.at(skin.layout.upper_contact, 0)].z;
   for (std::size_t i = outside; i < faces; ++i) {
     const double depth = lips - skin.places[i].z;

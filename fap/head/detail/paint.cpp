@@ -16,6 +16,19 @@ Vec3 face_colour(const Shape& shape, Vec3d p) {
   const Vec3 blush = linear_colour(shape.p.cheek_colour);
   const double x = std::abs(p.x);
   Vec3 c = skin;
+  if (shape.p.beard != Beard::none) {
+    const float dark = shape.p.beard == Beard::full ? 0.8f : 0.4f;
+    c = mix(c, mix(skin * 0.25f, linear_colour(shape.p.hair_colour), 0.5f),
+            dark * beard_share(shape, p));
+  }
+  if (shape.p.hair == HairStyle::bald) {
+    const Vec3 shaved = mix(skin, linear_colour(shape.p.hair_colour), 0.25f);
+    const double around = std::atan2(std::abs(p.x), p.z);
+    c = mix(c, shaved,
+            float(smooth_step(3.5, 5.0, p.y + 2.5 * smooth_step(0.9, 1.5, around)) *
+                  smooth_step(-7.0, -3.0, p.y)));
+  }
+  c = c * float(1 - 0.32 * age_line(shape.p, p));
   if (p.z < 3) return c;
   c = mix(c, blush, 0.55f * bump(length(Vec3d{x - 4.0, (p.y + 2.7) * 1.2, 0}), 1.7));
   c = mix(c, blush, 0.35f * bump(length(Vec3d{x, p.y + shape.p.nose_length, 0}), 0.9));
@@ -39,6 +52,50 @@ float lip_share(const Layout& l, int row, int column) {
 
 Vec3 linear_colour(std::uint32_t srgb) {
   return {linear(srgb >> 16), linear(srgb >> 8), linear(srgb)};
+}
+
+float beard_share(const Shape& shape, Vec3d p) {
+  const double x = std::abs(p.x);
+  const HeadParameters& h = shape.p;
+  // From below the ear to the corner of the mouth.
+  const double line = -h.mouth_drop + 0.2 + 0.62 * std::max(x - h.mouth_width - 0.7, 0.0);
+  const double cheek = smooth_step(0.5, -0.5, p.y - line);
+  const double above = smooth_step(h.mouth_width + 0.9, h.mouth_width - 0.1, x) *
+                       smooth_step(shape.nose_base() + 0.05, shape.nose_base() - 0.35, p.y);
+  const double neck = smooth_step(-h.chin_drop - 2.4, -h.chin_drop - 0.6, p.y);
+  // The skin beside and below the lower lip is bare.
+  const double bare =
+      1 - 0.55 * bump(length(Vec3d{(x - 1.7) / 0.6, (p.y + h.mouth_drop + 1.3) / 0.5, 0}), 1);
+  return float(std::max(cheek, above) * neck * bare * smooth_step(-2.5, 0.5, p.z));
+}
+
+double age_line(const HeadParameters& h, Vec3d p) {
+  if (h.lines <= 0 || p.z < 3) return 0;
+  const double x = std::abs(p.x);
+  const auto near = [&](Vec3d a, Vec3d b, double wide) {
+    const Vec3d q{x, p.y, 0};
+    const Vec3d ab = b - a;
+    const double t = std::clamp(dot(q - a, ab) / dot(ab, ab), 0.0, 1.0);
+    return double(bump(length(q - a - ab * t), wide)) * smooth_step(0.0, 0.2, t + 0.05) *
+           smooth_step(1.0, 0.75, t - 0.02);
+  };
+  const double wing = -h.nose_length - 0.1;
+  double depth = near({1.15, wing + 0.2, 0}, {h.mouth_width + 0.95, -h.mouth_drop - 0.3, 0}, 0.26);
+  depth = std::max(depth, 0.4 * near({h.mouth_width + 0.25, -h.mouth_drop - 0.35, 0},
+                                     {h.mouth_width + 0.1, -h.mouth_drop - 1.7, 0}, 0.24));
+  for (const double above : {1.5, 2.5, 3.5}) {
+    const double y = h.brow_height + above + 0.08 * std::cos(x);
+    depth = std::max(depth, 0.42 * bump(p.y - y, 0.24) * smooth_step(4.2, 2.6, x));
+  }
+  const double outer = h.eye_distance + h.eye_width / 2;
+  for (const double turn : {-0.35, 0.1, 0.5}) {
+    depth = std::max(depth, 0.5 * near({outer + 0.25, 0.15 + 0.3 * turn, 0},
+                                       {outer + 1.25, 0.2 + turn, 0}, 0.16));
+  }
+  // Below the eyes.
+  depth = std::max(
+      depth, 0.5 * near({h.eye_distance - 1.3, -0.95, 0}, {h.eye_distance + 0.9, -1.45, 0}, 0.28));
+  return h.lines * depth;
 }
 
 void paint_skin(const Shape& shape, Skin& skin) {

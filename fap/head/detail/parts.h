@@ -13,11 +13,13 @@ Mesh make_left_ear(const Shape& shape);         ///< closed, a part of the skin
 struct HairLines {
   std::vector<Vec3d> left, right;
 };
+bool hangs(HairStyle style);  ///< it is a bob, or longer
 HairLines hair_lines(const Shape& shape);
 double hair_field(const Shape& shape, const HairLines& lines, Vec3d p);  ///< distance to the hair
 Mesh make_hair(const Shape& shape);
 double short_hair_field(const Shape& shape, Vec3d p);  ///< the cap alone, without its locks
 Mesh make_short_hair(const Shape& shape);
+void add_glasses(const Shape& shape, Mesh& mesh);  ///< to the hair, if there are any
 double body_field(const Shape& shape, Vec3d p);
 Mesh make_body(const Shape& shape);
 Mesh make_teeth(const Shape& shape, bool upper);  ///< with gums
@@ -26,7 +28,8 @@ Mesh make_tongue(const Shape& shape);
 /// in the tip.
 inline constexpr int kTongueRows = 16;
 inline constexpr int kTongueAround = 16;
-Mesh make_brows(const Shape& shape);  ///< left, then right
+/// Left, then right; hairs of a beard are among them, as they move with the skin, too.
+Mesh make_brows(const Shape& shape);
 /// Left, then right. `anchors` gets the vertex of the rim that carries each vertex.
 Mesh make_lashes(const Shape& shape, const Skin& skin, std::vector<std::uint32_t>& anchors);
 

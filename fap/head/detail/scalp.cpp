@@ -10,7 +10,7 @@ namespace {
 using std::numbers::pi;
 constexpr Vec3d kMiddle{0, 3.2, -0.6};
 constexpr int kCapRows = 24;
-constexpr int kLockAround = 8;
+constexpr int kLockAround = 5;
 
 // Half width of a lock along its length, 0..1.
 double profile(double t) {

@@ -11,17 +11,21 @@ void add_bones(Form& form, const HeadParameters& p) {
   form.ball({0, 3.4, -0.4}, {p.skull_width, p.skull_height, 9.0}, 0);
   form.ball({0, 3.3, 2.4}, {p.skull_width * 0.84, 5.4, 6.5}, 2.0);
   form.ball({0, 0.23 * chin, 2.6}, {p.face_width, 0.76 * p.chin_drop, 6.0}, 2.0);
-  form.ball({0, chin + 3.7, 3.6}, {p.jaw_width * 1.36, 3.2, 4.5}, 2.4);
-  form.ball({0, chin + p.chin_size, 7.55}, {p.chin_size * 1.3, p.chin_size, 1.4}, 2.0);
+  form.ball({0, chin + 3.5, 3.4}, {p.jaw_width * 1.24, 3.2, 4.7}, 2.2);
+  form.ball({0, chin + p.chin_size, 8.15}, {p.chin_size * 1.12, p.chin_size, 1.5}, 1.5);
   // The bone of the jaw, from the chin to below the ear.
-  form.limb({p.chin_size * 0.9, chin + 1.2, 6.8}, {p.jaw_width * 1.3, chin + 4.4, 1.0}, 0.85, 0.8,
-            1.9);
-  form.limb({0, chin + 5.5, -1.1}, {0, -20, -3.6}, p.neck, p.neck * 1.08, 1.2);
+  form.limb({p.chin_size * 0.75, chin + 1.25, 7.1}, {p.jaw_width * 1.24, chin + 4.8, 0.9}, 0.7,
+            0.55, 1.6);
+  // The neck is narrower below the jaw than at the shoulders.
+  form.limb({0, chin + 5.5, -1.1}, {0, -20, -3.6}, p.neck * 0.93, p.neck * 1.13, 1.2);
 }
 
 void add_flesh(Form& form, const HeadParameters& p) {
-  form.ball({3.6, -0.33 * p.chin_drop, 5.6}, {p.cheek, p.cheek * 0.92, p.cheek}, 1.9);
-  form.ball({0, -p.mouth_drop + 0.15, 7.1}, {2.4, 2.5, 2.1}, 1.8);
+  form.ball({3.6, -0.29 * p.chin_drop, 5.7}, {p.cheek, p.cheek * 0.9, p.cheek}, 1.9);
+  form.ball({0, -p.mouth_drop + 0.15, 7.2}, {2.45, 2.45, 2.12}, 1.8);
+  // Between the lower lip and the chin.
+  form.hollow({0, -p.mouth_drop - 0.55 * (p.chin_drop - p.mouth_drop), 9.75}, {1.5, 0.35, 0.42},
+              0.9);
   if (p.brow_ridge > 0) {
     form.limb({0.9, 1.75, 8.0}, {4.6, 1.75, 6.2}, 0.55 + p.brow_ridge, 0.5 + p.brow_ridge, 1.3);
   }
@@ -32,10 +36,10 @@ void add_flesh(Form& form, const HeadParameters& p) {
 void add_nose(Form& form, const HeadParameters& p) {
   const double tip = -p.nose_length;
   const double r = p.nose_size;
-  form.limb({0, 0.2, 7.7 + p.nose_bridge}, {0, tip + 0.25, 9.8}, 0.6, r * 0.85, 1.4);
-  form.ball({0, tip, 10.0}, {r * 0.98, r * 0.86, r}, 0.5);
-  form.ball({r * 1.3, tip - 0.2, 9.2}, {r * 0.6, r * 0.66, r * 0.95}, 0.4);
-  form.limb({0, tip - r * 0.55, 9.85}, {0, tip - r * 1.15, 8.9}, r * 0.34, r * 0.36, 0.3);
+  form.limb({0, 0.2, 7.7 + p.nose_bridge}, {0, tip + 0.3, 10.0}, 0.58, r * 0.78, 1.3);
+  form.ball({0, tip, 10.3}, {r * 0.92, r * 0.84, r * 0.95}, 0.5);
+  form.ball({r * 1.2, tip - 0.18, 9.35}, {r * 0.52, r * 0.6, r * 0.95}, 0.62);
+  form.limb({0, tip - r * 0.5, 10.1}, {0, tip - r * 1.15, 8.95}, r * 0.34, r * 0.36, 0.3);
   form.hollow(nostril(p), {r * 0.36, r * 0.42, r * 0.55}, 0.16);
 }
 

@@ -137,6 +137,12 @@ Skin make_skin(const Shape& shape, double density) {
   std::vector<Vec3d> grid = lay_out(shape, skin.layout);
   form_lips(shape, skin.layout, grid);
   form_lids(shape, skin.layout, grid);
+  if (shape.p.lines > 0) {
+    for (Vec3d& place : grid) {
+      const double depth = age_line(shape.p, place);
+      if (depth > 1e-3) place -= normalised(gradient(shape.skin, place, 0.2)) * (0.12 * depth);
+    }
+  }
   number_vertices(grid, skin);
   for (int row = 0; row < skin.layout.bottom; ++row) {
     connect_rows(skin.layout, skin, row, skin.mesh.triangles);

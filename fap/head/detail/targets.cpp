@@ -138,6 +138,11 @@ class Maker {
         column_[v] += share.factor * weights_.row(v)[std::size_t(control)];
       }
     }
+    if (const int rounding = rounding_column(fap); rounding >= 0 && any) {
+      for (std::size_t v = 0; v < column_.size(); ++v) {
+        column_[v] += weights_.row(v)[std::size_t(rounding)];
+      }
+    }
     return any;
   }
 

@@ -59,6 +59,32 @@ constexpr struct {
 constexpr float kBackground = 0.02f;
 constexpr float kCore = 0.3f;  // of anchors
 constexpr int kSmoothings = 2;
+constexpr float kSmoothCorners = 0.12f;  // cm, of what rounds the corners of the mouth
+constexpr float kRoundness = 0.85f;      // of open mouths: 1 is an ellipse
+constexpr float kSteepest = 3.2f;        // corners of an open mouth, against straight ones
+constexpr float kBorderReach = 3.8f;     // cm: skin that follows a border of the lips
+// Halves of the borders of the lips, from the middle to the corner; see round_corners().
+struct RoundedHalf {
+  int fap;  // that opens it
+  std::string_view middle, half, corner, inner_half;
+  bool upper;
+
+  bool outer() const { return half != inner_half; }
+  // Of what the contact line lacks, so far from it (cm): the contact line goes along with the inner
+  // border, the contour with the outer one.
+  float share(float away) const {
+    const float near = smooth_step(1.5f, 0.1f, away);
+    return outer() ? smooth_step(kBorderReach, upper ? 0.9f : 1.2f, away) - near : near;
+  }
+};
+constexpr std::array<RoundedHalf, 8> kRounded = {{{8, "2.2", "2.6", "2.4", "2.6", true},
+                                                  {9, "2.2", "2.7", "2.5", "2.7", true},
+                                                  {10, "2.3", "2.8", "2.4", "2.8", false},
+                                                  {11, "2.3", "2.9", "2.5", "2.9", false},
+                                                  {55, "8.1", "8.5", "8.3", "2.6", true},
+                                                  {56, "8.1", "8.6", "8.4", "2.7", true},
+                                                  {57, "8.2", "8.7", "8.3", "2.8", false},
+                                                  {58, "8.2", "8.8", "8.4", "2.9", false}}};
 constexpr float kSmoothLips = 0.2f;   // cm: as far as values run into each other at the lips ...
 constexpr float kSmoothSkin = 0.42f;  // ... and away from them
 
@@ -93,6 +119,7 @@ class Builder {
     hold_lids();
     make_exact();
     match_lips();
+    round_corners();
     return std::move(weights_);
   }
 
@@ -259,6 +286,120 @@ class Builder {
     }
   }
 
+  // Between the corner and the middle of a half, the border of an open mouth is an arc of an
+  // ellipse. What weights lack there is in columns of their own: it opens the mouth, but does not
+  // narrow or push it.
+  void round_corners() {
+    Weights wider(weights_.vertices(), kControls.size() + kRounded.size());
+    for (std::size_t v = 0; v < weights_.vertices(); ++v) {
+      const std::span<const float> row = std::as_const(weights_).row(v);
+      std::copy(row.begin(), row.end(), wider.row(v).begin());
+    }
+    weights_ = std::move(wider);
+    std::array<std::vector<std::uint32_t>, 2> seams;
+    for (const ContactPair& pair : head_.seams.lips) {
+      seams[0].push_back(pair.upper);
+      seams[1].push_back(pair.lower);
+    }
+    if (seams[0].empty()) return;
+    const std::array<std::vector<float>, 2> away = {distances(seams[0]), distances(seams[1])};
+    Weights corners(weights_.vertices(), kRounded.size());
+    for (std::size_t k = 0; k < kRounded.size(); ++k) {
+      const std::size_t lip = kRounded[k].upper ? 0 : 1;
+      round_corner(kRounded[k], k, corners, seams[lip], away[lip], away[1 - lip]);
+    }
+    const std::vector<float> radii(weights_.vertices(), kSmoothCorners * scale_);
+    diffuse(mesh_.positions, neighbours_, radii, corners);
+    keep_points(corners);
+    // Closed lips stay closed.
+    for (const ContactPair& pair : head_.seams.lips) {
+      for (std::size_t k = 0; k < kRounded.size(); ++k) {
+        if (!kRounded[k].upper) continue;
+        float &upper = corners.row(pair.upper)[k], &lower = corners.row(pair.lower)[k + 2];
+        upper = lower = 0.5f * (upper + lower);
+      }
+    }
+    for (std::size_t v = 0; v < weights_.vertices(); ++v) {
+      const std::span<const float> row = std::as_const(corners).row(v);
+      std::copy(row.begin(), row.end(), weights_.row(v).begin() + kControls.size());
+    }
+  }
+
+  std::vector<float> distances(const std::vector<std::uint32_t>& from) const {
+    std::vector<float> all(mesh_.positions.size(), std::numeric_limits<float>::max());
+    for (const Reached& r : walk(mesh_.positions, neighbours_, from, kBorderReach * scale_)) {
+      all[r.vertex] = r.distance;
+    }
+    return all;
+  }
+
+  // `here`: distances from the lip whose contact line is `seam`; `there`: from the other one, which
+  // stays.
+  void round_corner(const RoundedHalf& lip, std::size_t column, Weights& corners,
+                    const std::vector<std::uint32_t>& seam, const std::vector<float>& here,
+                    const std::vector<float>& there) {
+    const std::uint32_t at_corner = vertex_of(lip.corner), at_half = vertex_of(lip.half);
+    if (at_corner == kMissing || at_half == kMissing) return;
+    const auto inner = std::size_t(control_index(lip.inner_half));
+    const float middle = head_.at(lip.middle).x;
+    const float width = mesh_.positions[at_corner].x - middle;
+    const auto along = [&](std::uint32_t v) { return (mesh_.positions[v].x - middle) / width; };
+    const float start = along(at_half);
+    if (!(start > 0.2f && start < 0.8f)) return;
+    // What the contact line lacks, towards the corner.
+    struct Lack {
+      float t;
+      Vec3 place;
+      float lack;
+    };
+    std::vector<Lack> lacks = {{start, mesh_.positions[at_half], 0},
+                               {1, mesh_.positions[at_corner], 0}};
+    for (const std::uint32_t v : seam) {
+      const float t = along(v);
+      if (t <= start || t >= 1) continue;
+      const float arc = std::sqrt((1 - t * t) / (1 - start * start));
+      const float lack = kRoundness * (arc - weights_.row(v)[inner]);
+      lacks.push_back({t, mesh_.positions[v], std::max(lack, 0.0f)});
+    }
+    std::sort(lacks.begin(), lacks.end(), [](const Lack& a, const Lack& b) { return a.t < b.t; });
+    for (std::uint32_t v = 0; v < mesh_.positions.size(); ++v) {
+      const float away = here[v] / scale_;
+      if (away > kBorderReach || there[v] < here[v]) continue;
+      // The place of the line above or below.
+      float best = std::numeric_limits<float>::max(), t = 0, lack = 0;
+      for (std::size_t i = 0; i + 1 < lacks.size(); ++i) {
+        const Lack &a = lacks[i], &b = lacks[i + 1];
+        const Vec3 ab = b.place - a.place, ap = mesh_.positions[v] - a.place;
+        const float part = std::clamp(ab.x != 0 ? ap.x / ab.x : 0, 0.0f, 1.0f);
+        const float distance = std::abs(ap.x - ab.x * part);
+        if (distance >= best) continue;
+        best = distance;
+        t = a.t + (b.t - a.t) * part;
+        lack = a.lack + (b.lack - a.lack) * part;
+      }
+      // The skin around the corner moves more gently than the edge of the lip.
+      const float gentle = smooth_step(1.0f, 1 - std::min(0.4f * away, 0.45f) - 0.001f, t);
+      corners.row(v)[column] = lack * gentle * lip.share(away);
+    }
+  }
+
+  // No feature point moves by columns that are none of its own.
+  void keep_points(Weights& corners) const {
+    std::vector<std::pair<std::size_t, std::vector<float>>> pinned;
+    for (std::size_t c = 0; c < kControls.size(); ++c) {
+      const std::uint32_t v = vertex_of(kControls[c].id);
+      if (v == kMissing) continue;
+      const std::span<const float> row = std::as_const(corners).row(v);
+      pinned.emplace_back(c, std::vector<float>(row.begin(), row.end()));
+    }
+    for (std::uint32_t v = 0; v < corners.vertices(); ++v) {
+      const std::span<float> row = corners.row(v);
+      for (const auto& [c, heights] : pinned) {
+        for (std::size_t k = 0; k < row.size(); ++k) row[k] -= heights[k] * weights_.row(v)[c];
+      }
+    }
+  }
+
   const Mesh& mesh_;
   const Head& head_;
   Neighbours neighbours_;
@@ -274,6 +415,13 @@ std::span<const ControlInfo> controls() { return kControls; }
 int control_index(std::string_view id) {
   for (std::size_t c = 0; c < kControls.size(); ++c) {
     if (!id.empty() && kControls[c].id == id) return int(c);
+  }
+  return -1;
+}
+
+int rounding_column(int fap) {
+  for (std::size_t k = 0; k < kRounded.size(); ++k) {
+    if (kRounded[k].fap == fap) return int(kControls.size() + k);
   }
   return -1;
 }

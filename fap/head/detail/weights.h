@@ -38,7 +38,11 @@ std::span<const ControlInfo> controls();
 /// Column of a feature point; -1 if it is none.
 int control_index(std::string_view id);
 
-/// Weights of all vertices of a head's skin: 1 at the own point, 0 at all others. Columns of points
+/// Column that rounds the corner of the mouth as this FAP opens it; -1 if there is none.
+int rounding_column(int fap);
+
+/// Weights of all vertices of a head's skin, a column for each of controls() and for each
+/// rounding_column(): 1 at the own point, 0 at all others. Columns of points
 /// that the head does not have are 0. The column of 2.1 is that of the whole jaw.
 Weights skin_weights(const Head& head);
 

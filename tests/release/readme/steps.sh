@@ -57,7 +57,8 @@ add_executable(app app.cpp)
 target_link_libraries(app PRIVATE animeme::fba)
 PROJECT
   cp tests/release/package/consumer/fba.cpp "$work/project/app.cpp"
-  cmake -S "$work/project" -B "$work/project/build" -DCMAKE_PREFIX_PATH="$1" >"$work/log" &&
+  cmake -G Ninja -S "$work/project" -B "$work/project/build" \
+    -DCMAKE_PREFIX_PATH="$1" >"$work/log" &&
     cmake --build "$work/project/build" >>"$work/log" && "$work/project/build/app" ||
       { cat "$work/log"; exit 1; }
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "fap/head/model.h"
+#include "fap/head/people.h"
 #include "fap/rate_text.h"
 #include "tools/app/commands/common.h"
 #include "tools/app/commands/report.h"
@@ -119,7 +119,7 @@ bool is_gltf_name(const std::string& path) {
 bool is_head_output(const std::string& path) { return is_gltf_name(path) || is_vrma(path); }
 
 bool moves_by_itself(const studio::HeadChoice& choice) {
-  return choice.points.empty() && !head::head_parameters(choice.head) && is_gltf_name(choice.head);
+  return choice.points.empty() && !head::names_person(choice.head) && is_gltf_name(choice.head);
 }
 
 std::string problem_of_built_head(const std::string& output, const studio::HeadChoice& choice) {

@@ -4,7 +4,9 @@
 namespace animeme::tools {
 
 const char* const kHeadHelp =
-    "woman, man or child, or your own head: .glb, .gltf or .vrm with ARKit blend shapes or "
+    "woman, man, child, amara, mei, rosa, omar, kenji or george, with details such as "
+    "woman:skin=5:hair=black-curly:age=60:glasses (see fap/head/people.h), or your own head: .glb, "
+    ".gltf or .vrm with ARKit blend shapes or "
     "visemes, .obj with --points, a folder with neutral.obj and an .obj for each shape, .fdp "
     "(Xface), .xmt with an FDP";
 const char* const kPointsHelp =

@@ -8,6 +8,7 @@
 
 #include "fap/head/obj.h"
 #include "fap/head/own_head.h"
+#include "fap/head/people.h"
 #include "fap/head/point_list.h"
 #include "fap/wider.h"
 #include "fap/xml/fdp.h"
@@ -23,7 +24,7 @@
 namespace animeme::studio {
 namespace {
 
-constexpr const char* kOurs = "woman, man or child";
+constexpr const char* kOurs = "woman, man, child, amara, mei, rosa, omar, kenji or george";
 constexpr const char* kNamesOfShapes =
     "--shape-name and --shape-names are for a .glb, .gltf, .vrm or folder with shapes; give one "
     "with "
@@ -150,7 +151,7 @@ Result<head::Source> read_source(const HeadChoice& choice, std::string& advice) 
 
 Result<LoadedHead> load_as_it_is(const HeadChoice& choice) {
   LoadedHead loaded;
-  if (head::head_parameters(choice.head)) {
+  if (head::names_person(choice.head)) {
     Result<head::Head> made = ready_head(choice.head);
     if (!made) return made.error();
     loaded.head = std::move(*made);
@@ -193,7 +194,10 @@ std::string problem_of(const HeadChoice& choice) {
   if (choice.gain != "auto" && !gain_of(choice.gain)) {
     return "--gain is auto or a number from 0.25 to 4, not \"" + choice.gain + "\"";
   }
-  if (head::head_parameters(choice.head)) {
+  if (head::names_person(choice.head)) {
+    if (const auto parsed = head::parse_head(choice.head); !parsed) {
+      return "--head " + choice.head + ": " + parsed.error().message;
+    }
     if (choice.names_shapes()) return kNamesOfShapes;
     if (choice.points.empty()) return "";
     return "--points is for custom heads; give the file with --head";

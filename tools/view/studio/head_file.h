@@ -14,7 +14,7 @@ namespace animeme::studio {
 
 /// Options --head, --points, --shape-name, --shape-names and --gain.
 struct HeadChoice {
-  std::string head = "woman";  ///< one of head::kHeadNames, or a file
+  std::string head = "woman";  ///< a description for head::parse_head(), or a file
   std::string points;          ///< list of feature points; see fap/head/point_list.h
   /// What morph targets with other names mean, "NAME=jawOpen"; see gltf/shape_rules.h.
   std::vector<std::string> shape_names;

@@ -1,10 +1,12 @@
 #include "tools/view/studio/head_store.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <type_traits>
 
+#include "fap/head/people.h"
 #include "fap/head/rig.h"
 #include "tools/formats/files/private_folder.h"
 #include "tools/view/studio/head_build.h"
@@ -169,10 +171,12 @@ std::string cache_folder() {
 }
 
 Result<head::Head> ready_head(std::string_view name, const std::string& folder) {
-  const auto parameters = head::head_parameters(name);
-  if (!parameters) return make_error(Code::not_found, "no head is called " + std::string(name));
-  const std::filesystem::path path =
-      std::filesystem::path(folder) / ("head-" + parameters->name + ".bin");
+  const Result<head::HeadParameters> parameters = head::parse_head(name);
+  if (!parameters) return parameters.error();
+  std::string file = "head-" + parameters->name + ".bin";
+  std::replace_if(
+      file.begin(), file.end(), [](char c) { return c == ':' || c == '=' || c == '#'; }, '_');
+  const std::filesystem::path path = std::filesystem::path(folder) / file;
   if (!folder.empty()) {
     if (const auto bytes = tools::read_private_file(path, kMostBytes)) {
       const std::string_view view(reinterpret_cast<const char*>(bytes->data()), bytes->size());
