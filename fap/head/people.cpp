@@ -90,10 +90,9 @@ HeadParameters mei() {
   p.eye_opening = 1.16;
   p.eye_width = 2.95;
   p.eye_radius = 1.66;
-  p.nose_length = 3.4;
+  p.nose_length = 3.5;
   p.nose_size = 0.62;
   p.face_width = 6.0;
-  p.chin_drop = 9.5;
   p.lashes = 0.26;
   p.brow_thickness = 0.22;
   p.hair = HairStyle::lengthy;

@@ -37,9 +37,8 @@ double hair_scatter(int i) {
 }
 
 // A hair that bends from `root` along `way` towards `bend`, and thins out.
-void add_hair(Vec3d root, Vec3d way, Vec3d bend, Vec3d outwards, double thickness,
-                     Mesh& mesh) {
-  constexpr int kPlaces = 4, kAround = 3;
+void add_hair(Vec3d root, Vec3d way, Vec3d bend, Vec3d outwards, double thickness, Mesh& mesh) {
+  constexpr int kPlaces = 3, kAround = 3;
   std::vector<Section> sections;
   for (int i = 0; i < kPlaces; ++i) {
     const double t = double(i) / (kPlaces - 1);
@@ -53,7 +52,7 @@ void add_hair(Vec3d root, Vec3d way, Vec3d bend, Vec3d outwards, double thicknes
 
 // Hairs where the beard is dense, on the left side.
 void add_beard(const Shape& shape, Mesh& mesh) {
-  constexpr double kStep = 0.26;
+  constexpr double kStep = 0.28;
   const Vec3 colour = linear_colour(shape.p.hair_colour);
   const double low = -shape.p.chin_drop - 0.4, high = -shape.p.nose_length;
   int seed = 0;
@@ -135,7 +134,7 @@ Mesh make_brows(const Shape& shape) {
   for (int i = 0; i < kAlong; ++i) {
     for (int row = 0; row < kRows; ++row) {
       const int seed = i * kRows + row;
-      const double t = std::clamp((i + hair_scatter(seed) * 0.9) / kAlong, 0.0, 0.995);
+      const double t = 0.93 * (i + hair_scatter(seed) * 0.9) / kAlong;  // the hairs reach on to 1
       const double taper =
           std::pow(std::sin(pi * std::clamp(0.06 + 0.92 * t, 0.0, 1.0)), 0.6) * (1.15 - 0.55 * t);
       const double half = shape.p.brow_thickness * taper;
@@ -149,7 +148,7 @@ Mesh make_brows(const Shape& shape) {
           shape.front((middle + up * (half * across)).x, (middle + up * (half * across)).y) +
           out * 0.02;
       const double rise =
-          1.5 - 1.25 * smooth_step(0.0, 0.35, t) - 0.5 * across * smooth_step(0.1, 0.4, t);
+          1.3 - 1.1 * smooth_step(0.0, 0.35, t) - 0.5 * across * smooth_step(0.1, 0.4, t);
       const double size = 0.5 + 0.25 * hair_scatter(seed + 800) - 0.15 * smooth_step(0.7, 1.0, t);
       const Vec3d way = normalised(along + up * rise) * size;
       const Vec3d bend = (along - up * (0.4 * rise)) * (0.35 * size) + out * (-0.06);

@@ -22,7 +22,8 @@ void add_bones(Form& form, const HeadParameters& p) {
 
 void add_flesh(Form& form, const HeadParameters& p) {
   form.ball({3.6, -0.29 * p.chin_drop, 5.7}, {p.cheek, p.cheek * 0.9, p.cheek}, 1.9);
-  form.ball({0, -p.mouth_drop + 0.15, 7.2}, {2.45, 2.45, 2.12}, 1.8);
+  form.ball({0, -p.mouth_drop + 0.15, 7.2}, {2.45, 0.98 * (p.mouth_drop - p.nose_length), 2.12},
+            1.8);
   // Between the lower lip and the chin.
   form.hollow({0, -p.mouth_drop - 0.55 * (p.chin_drop - p.mouth_drop), 9.75}, {1.5, 0.35, 0.42},
               0.9);
@@ -39,7 +40,7 @@ void add_nose(Form& form, const HeadParameters& p) {
   form.limb({0, 0.2, 7.7 + p.nose_bridge}, {0, tip + 0.3, 10.0}, 0.58, r * 0.78, 1.3);
   form.ball({0, tip, 10.3}, {r * 0.92, r * 0.84, r * 0.95}, 0.5);
   form.ball({r * 1.2, tip - 0.18, 9.35}, {r * 0.52, r * 0.6, r * 0.95}, 0.62);
-  form.limb({0, tip - r * 0.5, 10.1}, {0, tip - r * 1.15, 8.95}, r * 0.34, r * 0.36, 0.3);
+  form.limb({0, tip - r * 0.5, 10.1}, {0, tip - r * 1.1, 9.05}, r * 0.34, r * 0.38, 0.3);
   form.hollow(nostril(p), {r * 0.36, r * 0.42, r * 0.55}, 0.16);
 }
 
@@ -61,7 +62,10 @@ Shape::Shape(const HeadParameters& parameters) : p(parameters) {
   add_nose(skin, p);
   // Between nose and upper lip.
   const double groove = 0.5 * (upper_lip(0) + nose_base());
-  skin.hollow({0, groove, front(0, groove).z + 0.30}, {0.26, 0.62, 0.36}, 0.45);
+  // It is shallow in children, whose nose is near to the mouth.
+  const double grown = std::clamp((p.mouth_drop - p.nose_length - 2.2) / 0.3, 0.0, 1.0);
+  skin.hollow({0, groove, front(0, groove).z + 0.30},
+              {0.26, 0.44 + 0.18 * grown, 0.32 + 0.04 * grown}, 0.4 + 0.05 * grown);
   // From the height of the eyes to that of the nose, as tall as its size says.
   const auto side = [this](double y) { return outer_hit(skin, {0, y, -0.3}, {1, 0, 0}, 14); };
   const double half = 2.1 * p.ear;

@@ -348,38 +348,38 @@ class Builder {
     if (!(start > 0.2f && start < 0.8f)) return;
     // What the contact line lacks, towards the corner.
     struct Lack {
-      float t;
-      Vec3 place;
-      float lack;
+      float t, lack;
     };
-    std::vector<Lack> lacks = {{start, mesh_.positions[at_half], 0},
-                               {1, mesh_.positions[at_corner], 0}};
+    std::vector<Lack> lacks = {{start, 0}, {1, 0}};
     for (const std::uint32_t v : seam) {
       const float t = along(v);
       if (t <= start || t >= 1) continue;
       const float arc = std::sqrt((1 - t * t) / (1 - start * start));
       const float lack = kRoundness * (arc - weights_.row(v)[inner]);
-      lacks.push_back({t, mesh_.positions[v], std::max(lack, 0.0f)});
+      lacks.push_back({t, std::max(lack, 0.0f)});
     }
     std::sort(lacks.begin(), lacks.end(), [](const Lack& a, const Lack& b) { return a.t < b.t; });
+    const float most =
+        std::max_element(lacks.begin(), lacks.end(), [](const Lack& a, const Lack& b) {
+          return a.lack < b.lack;
+        })->lack;
     for (std::uint32_t v = 0; v < mesh_.positions.size(); ++v) {
       const float away = here[v] / scale_;
-      if (away > kBorderReach || there[v] < here[v]) continue;
-      // The place of the line above or below.
-      float best = std::numeric_limits<float>::max(), t = 0, lack = 0;
+      const float t = along(v);
+      if (away > kBorderReach || t <= start) continue;
+      // Past the corner skin belongs to both lips.
+      const float own =
+          smooth_step(-0.5f, 0.5f, (there[v] - here[v]) / std::max(there[v] + here[v], 1e-6f));
+      float near = 0;
       for (std::size_t i = 0; i + 1 < lacks.size(); ++i) {
         const Lack &a = lacks[i], &b = lacks[i + 1];
-        const Vec3 ab = b.place - a.place, ap = mesh_.positions[v] - a.place;
-        const float part = std::clamp(ab.x != 0 ? ap.x / ab.x : 0, 0.0f, 1.0f);
-        const float distance = std::abs(ap.x - ab.x * part);
-        if (distance >= best) continue;
-        best = distance;
-        t = a.t + (b.t - a.t) * part;
-        lack = a.lack + (b.lack - a.lack) * part;
+        if (t < a.t || t > b.t || b.t <= a.t) continue;
+        near = a.lack + (b.lack - a.lack) * (t - a.t) / (b.t - a.t);
       }
       // The skin around the corner moves more gently than the edge of the lip.
-      const float gentle = smooth_step(1.0f, 1 - std::min(0.4f * away, 0.45f) - 0.001f, t);
-      corners.row(v)[column] = lack * gentle * lip.share(away);
+      const float far = 0.8f * most * smooth_step(start, 0.85f, t) * smooth_step(1.5f, 0.85f, t);
+      const float lack = near + (far - near) * smooth_step(0.1f, 0.9f, away);
+      corners.row(v)[column] = lack * own * lip.share(away);
     }
   }
 

@@ -195,8 +195,14 @@ class FaceMap {
       const Spot hairs = of_parts(is_brow, side, [&](Vec3 p) { return -sideways(p); });
       if (hairs.exists()) {
         set(side == 0 ? "4.1" : "4.2", hairs);
-        set(side == 0 ? "4.3" : "4.4", of_parts(is_brow, side, [](Vec3 p) { return p.y; }));
-        set(side == 0 ? "4.5" : "4.6", of_parts(is_brow, side, sideways));
+        const Spot outer = of_parts(is_brow, side, sideways);
+        set(side == 0 ? "4.5" : "4.6", outer);
+        // The top between them: at the nose single hairs may stand up.
+        const float near = place(hairs).x, far = place(outer).x;
+        set(side == 0 ? "4.3" : "4.4", of_parts(is_brow, side, [&](Vec3 p) {
+              const bool between = std::abs(p.x - (near + far) / 2) < 0.05f * std::abs(far - near);
+              return between ? p.y : -std::numeric_limits<float>::infinity();
+            }));
       }
       set(side == 0 ? "5.1" : "5.2", guess_.farthest(guess_.shape_named("cheekPuff"), out));
       if (hairs.exists()) continue;
