@@ -240,7 +240,7 @@ std::optional<HeadParameters> head_parameters(std::string_view name);
 /// The names that head_parameters() knows.
 extern const std::array<std::string_view, 3> kHeadNames;
 
-/// Makes a head. Deterministic; about half a second.
+/// Makes a head. Deterministic; about a second.
 /// Errors: invalid_argument if a size is not finite and positive (smile, nose_bridge, brow_ridge,
 /// lashes and lines may be 0), or the density is not in 0.5..2.
 Result<Head> make_head(const HeadParameters& parameters = {});

@@ -303,7 +303,7 @@ TEST(HeadCommand, SaysWhatIsWrong) {
   std::ofstream(dir / "points.csv") << "2.1,0\n8.3,7\n";
   std::ofstream(dir / "head.fdp") << "<xfdp><head>";
   std::ofstream(dir / "head.stl") << "solid\n";
-  expect({"head", "dragon"}, 2, "woman, man or child");
+  expect({"head", "dragon"}, 2, "woman, man, child");
   expect({"head", "man", "--points", dir / "points.csv"}, 2, "custom heads");
   expect({"head", dir / "cube.obj"}, 2, "add --points");
   expect({"head", dir / "head.stl"}, 2, ".glb, .gltf, .vrm, .fdp or .xmt");

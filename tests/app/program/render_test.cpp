@@ -160,7 +160,7 @@ TEST(Render, SaysWhatIsWrong) {
   usage({"render", clip(), "--size", "0x4", "-o", out}, "--size: write WIDTHxHEIGHT");
   usage({"render", clip(), "--sheet", "4", "-o", out}, "--sheet: write COLUMNSxROWS");
   usage({"render", clip(), "--sheet", "100x4", "-o", out}, "larger than 8192 pixels");
-  usage({"render", clip(), "--head", "dragon", "-o", out}, "--head is woman, man or child");
+  usage({"render", clip(), "--head", "dragon", "-o", out}, "--head is woman, man, child");
   usage({"render", clip(), "--view", "behind", "-o", out}, "--view: write front");
   usage({"render", clip(), "-o", dir / "out.bmp"}, "must end in .png");
   usage({"render", clip(), "--frame", "1", "--sheet", "2x2", "-o", out}, "--sheet");

@@ -114,7 +114,7 @@ TEST(ViewCommand, SaysWhatIsWrong) {
   const std::string curves = kData + "grid_s1_sample/fap/prac8p.csv";
   const auto head = animeme({"view", curves, "--head", "dog", "-o", dir / "a.html"});
   EXPECT_EQ(head.exit_code, 2);
-  EXPECT_THAT(head.err, HasSubstr("woman, man or child"));
+  EXPECT_THAT(head.err, HasSubstr("woman, man, child"));
   EXPECT_EQ(animeme({"view", dir / "none.fap", "-o", dir / "a.html"}).exit_code, 3);
   const auto sound = animeme({"view", curves, "--audio", curves, "-o", dir / "a.html"});
   EXPECT_EQ(sound.exit_code, 3);

@@ -215,6 +215,21 @@ TEST(PlotLayout, SizeIsKept) {
   EXPECT_NEAR(number_of(plot::curves_svg(panels, {"x"}, layout), "<svg", "height"), least, 0.06);
 }
 
+// Rows as low as they may be, of values on both sides of 0: a scale that has no room for three
+// ticks grew without an end.
+TEST(PlotLayout, LowRowsHaveScalesOfTheirValues) {
+  plot::Layout layout;
+  layout.width = 640;
+  layout.own_scales = true;
+  const std::vector<plot::Panel> panels = {
+      panel_of({row_named("a", -120, 310), row_named("b", -0.7, 2.4), row_named("c", 0, 90)}, 4)};
+  layout.height = plot::least_height(panels, {"x"}, layout);
+  const std::string svg = plot::curves_svg(panels, {"x"}, layout);
+  EXPECT_THAT(svg, HasSubstr(">500<"));
+  EXPECT_THAT(svg, HasSubstr(">-500<"));
+  EXPECT_THAT(svg, Not(HasSubstr("00000")));
+}
+
 TEST(PlotLayout, ARowMayHaveAScaleOfItsOwn) {
   plot::Layout layout;
   layout.own_scales = true;

@@ -47,7 +47,7 @@ struct Measures {
   double least_time = 60;  // between two of time
 };
 
-constexpr double kPrintRow = 66, kLeastPrintRow = 40;
+constexpr double kPrintRow = 66, kLeastPrintRow = 46;
 
 struct Pen {
   const char* colour;
@@ -100,7 +100,8 @@ void set_ends(Scale& scale, double room, const Measures& m) {
     scale.low = std::floor(values.low / scale.step + 1e-9) * scale.step;
     scale.high = std::ceil(values.high / scale.step - 1e-9) * scale.step;
     const double apart = room * scale.step / (scale.high - scale.low);
-    if (apart >= m.least_ticks || scale.high - scale.low < 1.5 * scale.step) return;
+    // Values on both sides of 0 keep a tick on each.
+    if (apart >= m.least_ticks || scale.high - scale.low < 2.5 * scale.step) return;
     scale.step = round_step(1.5 * scale.step);
   }
 }
