@@ -369,7 +369,10 @@ void soak(bool joins, unsigned seed) {
   const auto steps = largest_steps(clip);
   double worst = 0;
   for (std::size_t fap = fap::kFirstLowLevel; fap <= fap::kFapCount; ++fap) {
-    EXPECT_LE(steps[fap], limits[fap] + 1) << "FAP " << fap;  // values are whole numbers
+    // Values are whole numbers. Brows may still come down from one question as they rise for the
+    // next.
+    const int most = fap >= 31 && fap <= 36 ? 2 * limits[fap] : limits[fap];
+    EXPECT_LE(steps[fap], most + 1) << "FAP " << fap;
     if (limits[fap] > 0) worst = std::max(worst, double(steps[fap]) / limits[fap]);
   }
   const media::Pcm pcm = stage.sound();

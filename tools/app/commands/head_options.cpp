@@ -4,11 +4,10 @@
 namespace animeme::tools {
 
 const char* const kHeadHelp =
-    "woman, man, child, amara, mei, rosa, omar, kenji or george, with details such as "
-    "woman:skin=5:hair=black-curly:age=60:glasses (see fap/head/people.h), or your own head: .glb, "
-    ".gltf or .vrm with ARKit blend shapes or "
-    "visemes, .obj with --points, a folder with neutral.obj and an .obj for each shape, .fdp "
-    "(Xface), .xmt with an FDP";
+    "woman, man, child, amara, mei, rosa, omar, kenji or george, with words such as "
+    "woman:skin=5:hair=black-bob:age=60:glasses, or your own head: .glb, .gltf or .vrm with ARKit "
+    "blend shapes or visemes, .obj with --points, a folder with neutral.obj and an .obj for each "
+    "shape, .fdp (Xface), .xmt with an FDP";
 const char* const kPointsHelp =
     "Table of feature points of your .obj or .glb: lines such as 2.1,966 (see animeme head --help)";
 

@@ -417,6 +417,9 @@ void add_options(OptionTable& cli, RenderOptions& options) {
   cli.add("--audio-bitrate", options.audio_bit_rate, "Video: bits per second of the sound")
       ->between(6000, 320000);
   add_track_option(cli, options.track);
+  cli.show_in_help_all("Details of heads and scripts",
+                       "--shape-name --shape-names --tier --speak-marks --script-format "
+                       "--max-seconds --audio-bitrate");
 }
 
 }  // namespace

@@ -204,7 +204,8 @@ void add_options(OptionTable& cli, StreamOptions& options) {
   add_track_option(cli, options.track);
   cli.show_in_help_all(
       "Voices, coding and transport",
-      "--tier --speaker --speak-marks --script-format --max-seconds --speed --pitch --liveliness "
+      "--sdp --duration --tier --speaker --speak-marks --script-format --max-seconds --speed "
+      "--pitch --liveliness "
       "--look --still --seed --no-tongue --hear-pcm --mtu --repeat --repeat-after "
       "--bundle --ice-server --audio-repeat --audio-fec --max-clients --max-per-address "
       "--allow-origin --host-name --delay "

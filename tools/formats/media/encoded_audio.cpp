@@ -79,8 +79,9 @@ Result<av::Codec> open_encoder(const AudioSettings& settings, int sample_rate,
     if (settings.expected_loss > 0) {
       // What is repeated belongs to the part of Opus for speech, which music and tones do not use.
       av_opt_set(context->priv_data, "application", "voip", 0);
-      av_opt_set_int(context->priv_data, "fec", 1, 0);
-      av_opt_set_int(context->priv_data, "packet_loss", settings.expected_loss, 0);
+      av_opt_set(context->priv_data, "fec", "1", 0);
+      const std::string loss = std::to_string(settings.expected_loss);
+      av_opt_set(context->priv_data, "packet_loss", loss.c_str(), 0);
     }
   }
   if (codec == AudioCodec::aac) {
