@@ -31,7 +31,7 @@ FORMATS = ("codec/bitstream.md", "codec/standards.md", "fap/semantics.md", "fap/
            "tools/formats/media/containers.md", "dam/script/phoneme_scripts.md",
            "tools/formats/scripts/README.md",
            "tools/view/gltf/README.md", "tools/view/gltf/avatars.md", "fap/xml/README.md",
-           "fap/head/face_models.md",
+           "fap/head/face_models.md", "fap/head/rig.md",
            "conformance/README.md")
 
 
