@@ -63,10 +63,10 @@ export class HeadView {
       rigs.map((rig, i) => ({renderer, rig, meshes: meshes[i]})));
     this.rigs = this.places.map(({rig}) => rig);
     this.meshes = this.places.map(({meshes}) => meshes);
-    this.ready = Promise.all(made.map(({ready}) => ready));
     this.stale = this.rigs.map(() => true);
     this.hot = false;
-    this.wait(made.map(({renderer}) => renderer.materials));
+    // Its pictures are decoded, and it is seen.
+    this.ready = this.wait(made.map(({renderer}) => renderer.materials));
   }
 
   /** Takes another head, which stands as it was left: pose() it. */
@@ -84,7 +84,7 @@ export class HeadView {
   wait(materials) {
     this.canvas.style.opacity = materials.every(({complete}) => complete) ? '' : '0';
     const {places} = this;
-    Promise.all(materials.map(({ready}) => ready)).then(() => {
+    return Promise.all(materials.map(({ready}) => ready)).then(() => {
       for (const each of materials) each.complete = true;
       if (this.places === places) this.canvas.style.opacity = '';
     });
@@ -94,9 +94,7 @@ export class HeadView {
     const renderer = new Renderer(this.canvas, model, () => this.onNeed());
     const rigs = known ||
         Array.from({length: this.people ? 1 : this.count}, () => new Rig(model));
-    // ready: its pictures are decoded, and it is seen.
-    return {renderer, rigs, meshes: rigs.map((rig) => renderer.load(rig)),
-        ready: renderer.materials.ready};
+    return {renderer, rigs, meshes: rigs.map((rig) => renderer.load(rig))};
   }
 
   /** Moves head `which` without drawing it, by FAPs. */
