@@ -47,7 +47,8 @@ inline constexpr std::int64_t kMostOfOne = 100'000;         ///< frames that one
 /// out_of_range (more than kMostResampled frames, or kMostOfOne of a single one).
 Result<void> check_resampling(Rate from, Rate to, std::int64_t frames);
 
-/// A whole clip of complete frames; check_resampling() says whether that is sensible. Its name is kept.
+/// A whole clip of complete frames; check_resampling() says whether that is sensible. Its name is
+/// kept.
 Sequence resample(const Sequence& filled, Rate to);
 
 }  // namespace animeme::fap

@@ -188,7 +188,7 @@ enum class HairStyle : std::uint8_t { bob, short_cut, fringe, lengthy, bun, curl
 /// Glasses of make_head(): frames without lenses, part of the hair.
 enum class Glasses : std::uint8_t { none, round, square };
 
-/// Beards of make_head(), as colours of the skin.
+/// Beards of make_head(): a shadow on the skin; `full` has hairs, too, which are part of the brows.
 enum class Beard : std::uint8_t { none, stubble, full };
 
 /// Sizes in cm and colours (sRGB, 0xRRGGBB) of a head. Sizes may be changed by about a quarter;

@@ -130,6 +130,7 @@ Mesh make_eye(const Shape& shape, int side) {
 Mesh make_brows(const Shape& shape) {
   // Hairs in rows from the lower edge up; they lie towards the temple, at the nose they rise.
   constexpr int kAlong = 30, kRows = 4;
+  const Vec3 colour = linear_colour(shape.p.brow_colour);
   Mesh mesh;
   for (int i = 0; i < kAlong; ++i) {
     for (int row = 0; row < kRows; ++row) {
@@ -144,17 +145,16 @@ Mesh make_brows(const Shape& shape) {
           normalised(shape.brow(std::min(t + 0.03, 1.0)) - shape.brow(std::max(t - 0.03, 0.0)));
       const Vec3d out = normalised(gradient(shape.skin, middle, 0.1));
       const Vec3d up = normalised(cross(out, along));
-      const Vec3d root =
-          shape.front((middle + up * (half * across)).x, (middle + up * (half * across)).y) +
-          out * 0.02;
+      const Vec3d beside = middle + up * (half * across);
+      const Vec3d root = shape.front(beside.x, beside.y) + out * 0.02;
       const double rise =
           1.3 - 1.1 * smooth_step(0.0, 0.35, t) - 0.5 * across * smooth_step(0.1, 0.4, t);
       const double size = 0.5 + 0.25 * hair_scatter(seed + 800) - 0.15 * smooth_step(0.7, 1.0, t);
       const Vec3d way = normalised(along + up * rise) * size;
       const Vec3d bend = (along - up * (0.4 * rise)) * (0.35 * size) + out * (-0.06);
-      add_hair(root, way + out * 0.11, bend, out, 0.032 + 0.3 * 0.05, mesh);
+      add_hair(root, way + out * 0.11, bend, out, 0.047, mesh);
       const float tint = float(0.8 + 0.5 * hair_scatter(seed + 1200));
-      mesh.colours.resize(mesh.positions.size(), linear_colour(shape.p.brow_colour) * tint);
+      mesh.colours.resize(mesh.positions.size(), colour * tint);
     }
   }
   if (shape.p.beard == Beard::full) add_beard(shape, mesh);

@@ -63,9 +63,6 @@ Vec3d onto(const Surface& hair, Vec3d from, Vec3d away, double height) {
   return outer_hit(hair, from, direction, 16) + direction * height;
 }
 
-// 0..1, scattered over i.
-double scattered(int i) { return double((std::uint32_t(i) * 2654435761u) >> 16 & 1023u) / 1023; }
-
 // From the parting over the side to the ends, which turn in. Angle 0 is in front, pi behind.
 Lock curtain(const Surface& hair, double angle, double end, double above) {
   constexpr int kPlaces = 15;

@@ -89,6 +89,8 @@ void add_cap(const Scalp& scalp, const std::vector<double>& edges, const Thickne
   }
 }
 
+double scattered(int i) { return double((std::uint32_t(i) * 2654435761u) >> 16 & 1023u) / 1023; }
+
 void add_lock(const Lock& lock, Vec3 colour, Mesh& mesh) {
   std::vector<Section> sections;
   const std::size_t n = lock.places.size();

@@ -34,6 +34,9 @@ using Thickness = std::function<double(double inside, double phi)>;
 void add_cap(const Scalp& scalp, const std::vector<double>& edges, const Thickness& thickness,
              Vec3 colour, Mesh& mesh);
 
+/// 0..1, scattered over i, the same on each call.
+double scattered(int i);
+
 /// A lock: a line of places, the directions away from the head, and its half width.
 struct Lock {
   std::vector<Vec3d> places;

@@ -76,9 +76,6 @@ double edge_height(const Cap& cap, double angle) {
                               smooth_step(cap.angles[i], cap.angles[i + 1], angle);
 }
 
-// 0..1, scattered over i.
-double scatter(int i) { return double((std::uint32_t(i) * 2654435761u) >> 16 & 1023u) / 1023; }
-
 // Where a lock is at t, 0 at its root and 1 at its tip.
 struct Spot {
   double theta, phi, height;
@@ -106,11 +103,11 @@ void add_quiff(const Scalp& scalp, const Cap& cap, const std::vector<double>& ed
     for (int i = 0; i < count; ++i) {
       const int seed = row * 32 + i;
       const double start = -0.78 + 1.56 * (i + 0.5) / count;
-      const double sweep = start > kParting ? 0.55 : -0.75 - 0.3 * scatter(seed);
+      const double sweep = start > kParting ? 0.55 : -0.75 - 0.3 * scattered(seed);
       const double root = edges[std::size_t((start / (2 * pi) + 1) * kColumns) % kColumns];
       const double lift = (row == 0 ? 1.25 : 0.5) * (start > kParting ? 0.45 : 1.0) *
-                          (0.85 + 0.3 * scatter(seed + 5)) * std::cos(start * 0.9);
-      const double reach = 0.62 + 0.1 * scatter(seed + 9);
+                          (0.85 + 0.3 * scattered(seed + 5)) * std::cos(start * 0.9);
+      const double reach = 0.62 + 0.1 * scattered(seed + 9);
       grow(
           scalp,
           [&](double t) {
@@ -120,7 +117,7 @@ void add_quiff(const Scalp& scalp, const Cap& cap, const std::vector<double>& ed
             return Spot{root * (1 - 0.2 * row) * (1 - reach * t) + 0.02, start + sweep * t * t,
                         height};
           },
-          0.5 - 0.04 * row, float(0.84 + 0.32 * scatter(seed + 3)), colour, mesh);
+          0.5 - 0.04 * row, float(0.84 + 0.32 * scattered(seed + 3)), colour, mesh);
     }
   }
 }
@@ -131,16 +128,16 @@ void add_mop(const Scalp& scalp, const Cap& cap, Vec3 colour, Mesh& mesh) {
     const int count = layer == 0 ? 64 : 40;
     for (int i = 0; i < count; ++i) {
       const int seed = layer * 80 + i;
-      const double start = 2 * pi * (i + 0.3 * scatter(seed)) / count;
-      const double swirl = 0.5 + 0.2 * scatter(seed + 3);
+      const double start = 2 * pi * (i + 0.3 * scattered(seed)) / count;
+      const double swirl = 0.5 + 0.2 * scattered(seed + 3);
       const double end = scalp.edge(start, [&](Vec3d p) {
         const double angle = std::atan2(std::abs(p.x), p.z);
         const double hang =
             1.7 * smooth_step(1.1, 0.5, angle) +
-            (0.45 + 0.55 * scatter(seed + 7)) * smooth_step(0.12, 0.34, std::abs(angle - 1.62));
+            (0.45 + 0.55 * scattered(seed + 7)) * smooth_step(0.12, 0.34, std::abs(angle - 1.62));
         return edge_height(cap, angle) - hang;
       });
-      const double reach = layer == 0 ? end : end * (0.70 + 0.12 * scatter(seed + 1));
+      const double reach = layer == 0 ? end : end * (0.70 + 0.12 * scattered(seed + 1));
       grow(
           scalp,
           [&](double t) {
@@ -150,7 +147,7 @@ void add_mop(const Scalp& scalp, const Cap& cap, Vec3 colour, Mesh& mesh) {
             return Spot{0.1 + (reach - 0.1) * t, start - swirl * (1 - t) * (1 - t),
                         lift + 0.12 * smooth_step(0.85, 1.0, t)};
           },
-          0.62 + 0.06 * std::cos(start) - 0.08 * layer, float(0.82 + 0.34 * scatter(seed + 11)),
+          0.62 + 0.06 * std::cos(start) - 0.08 * layer, float(0.82 + 0.34 * scattered(seed + 11)),
           colour, mesh);
     }
   }
@@ -163,14 +160,14 @@ void add_swept(const Shape& shape, const Scalp& scalp, const std::vector<double>
   constexpr Vec3d kWithin{0, 3.2, -0.6};
   const Vec3d to_knot = normalised(kKnot - kWithin);
   for (int i = 0; i < kCount; ++i) {
-    const double phi = 2 * pi * (i + 0.4 * scatter(i)) / kCount;
+    const double phi = 2 * pi * (i + 0.4 * scattered(i)) / kCount;
     const double edge = edges[std::size_t(phi / (2 * pi) * kColumns) % kColumns];
     const Vec3d from = normalised(scalp.direction(edge * 0.99, phi));
     if (dot(from, to_knot) > 0.86) continue;
     Lock lock;
-    lock.width = 0.5 + 0.2 * scatter(i + 40);
-    lock.tint = float(0.84 + 0.3 * scatter(i + 80));
-    const double above = 0.34 + 0.14 * scatter(i + 120);
+    lock.width = 0.5 + 0.2 * scattered(i + 40);
+    lock.tint = float(0.84 + 0.3 * scattered(i + 80));
+    const double above = 0.34 + 0.14 * scattered(i + 120);
     for (int k = 0; k < kLockPlaces; ++k) {
       const double t = double(k) / (kLockPlaces - 1);
       const Vec3d away = normalised(from * (1 - t) + to_knot * t + Vec3d{0, 0.35 * t * (1 - t), 0});
@@ -188,7 +185,7 @@ void add_swept(const Shape& shape, const Scalp& scalp, const std::vector<double>
     Lock lock;
     const double polar = 0.16 + 1.5 * i / (kWindings - 1);
     lock.width = 0.42;
-    lock.tint = float(0.86 + 0.28 * scatter(i + 300));
+    lock.tint = float(0.86 + 0.28 * scattered(i + 300));
     for (int k = 0; k <= 2 * kLockPlaces; ++k) {
       const double a = 2.15 * pi * k / (2 * kLockPlaces) + i;
       const Vec3d out =

@@ -35,15 +35,7 @@ std::vector<float> smile_bulge(const Head& head, const Weights& weights, bool le
     const bool before = p.z > wing.z - 1.2f * size && side * p.x > 0;
     bulge.push_back(before ? profile(across, along) : 0);
   }
-  std::vector<std::pair<std::size_t, float>> pinned;  // columns of points, and their heights
-  for (const ControlInfo& control : controls()) {
-    const FeaturePoint point = head.point(control.id);
-    if (!point.exists() || point.part != Part::skin) continue;
-    pinned.push_back({std::size_t(control_index(control.id)), bulge[point.vertex]});
-  }
-  for (std::size_t v = 0; v < bulge.size(); ++v) {
-    for (const auto& [column, height] : pinned) bulge[v] -= height * weights.row(v)[column];
-  }
+  hold_points(head, weights, bulge);
   return bulge;
 }
 

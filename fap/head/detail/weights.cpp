@@ -61,7 +61,6 @@ constexpr float kCore = 0.3f;  // of anchors
 constexpr int kSmoothings = 2;
 constexpr float kSmoothCorners = 0.12f;  // cm, of what rounds the corners of the mouth
 constexpr float kRoundness = 0.85f;      // of open mouths: 1 is an ellipse
-constexpr float kSteepest = 3.2f;        // corners of an open mouth, against straight ones
 constexpr float kBorderReach = 3.8f;     // cm: skin that follows a border of the lips
 // Halves of the borders of the lips, from the middle to the corner; see round_corners().
 struct RoundedHalf {
@@ -385,18 +384,11 @@ class Builder {
 
   // No feature point moves by columns that are none of its own.
   void keep_points(Weights& corners) const {
-    std::vector<std::pair<std::size_t, std::vector<float>>> pinned;
-    for (std::size_t c = 0; c < kControls.size(); ++c) {
-      const std::uint32_t v = vertex_of(kControls[c].id);
-      if (v == kMissing) continue;
-      const std::span<const float> row = std::as_const(corners).row(v);
-      pinned.emplace_back(c, std::vector<float>(row.begin(), row.end()));
-    }
-    for (std::uint32_t v = 0; v < corners.vertices(); ++v) {
-      const std::span<float> row = corners.row(v);
-      for (const auto& [c, heights] : pinned) {
-        for (std::size_t k = 0; k < row.size(); ++k) row[k] -= heights[k] * weights_.row(v)[c];
-      }
+    std::vector<float> column(corners.vertices());
+    for (std::size_t k = 0; k < corners.controls(); ++k) {
+      for (std::size_t v = 0; v < column.size(); ++v) column[v] = corners.row(v)[k];
+      hold_points(head_, weights_, column);
+      for (std::size_t v = 0; v < column.size(); ++v) corners.row(v)[k] = column[v];
     }
   }
 
@@ -427,5 +419,17 @@ int rounding_column(int fap) {
 }
 
 Weights skin_weights(const Head& head) { return Builder(head).build(); }
+
+void hold_points(const Head& head, const Weights& weights, std::vector<float>& values) {
+  std::vector<std::pair<std::size_t, float>> pinned;  // columns of points, and their values
+  for (std::size_t c = 0; c < kControls.size(); ++c) {
+    const FeaturePoint point = head.point(kControls[c].id);
+    if (!point.exists() || point.part != Part::skin) continue;
+    pinned.emplace_back(c, values[point.vertex]);
+  }
+  for (std::size_t v = 0; v < values.size(); ++v) {
+    for (const auto& [column, value] : pinned) values[v] -= value * weights.row(v)[column];
+  }
+}
 
 }  // namespace animeme::head::detail

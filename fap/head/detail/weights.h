@@ -42,8 +42,12 @@ int control_index(std::string_view id);
 int rounding_column(int fap);
 
 /// Weights of all vertices of a head's skin, a column for each of controls() and for each
-/// rounding_column(): 1 at the own point, 0 at all others. Columns of points
-/// that the head does not have are 0. The column of 2.1 is that of the whole jaw.
+/// rounding_column(): 1 at the own point, 0 at all others. Columns of points that the head does not
+/// have are 0. The column of 2.1 is that of the whole jaw.
 Weights skin_weights(const Head& head);
+
+/// Takes from values of all vertices of the skin what they are at feature points, by the weights of
+/// these: they are 0 there then.
+void hold_points(const Head& head, const Weights& weights, std::vector<float>& values);
 
 }  // namespace animeme::head::detail

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "dam/script/turns.h"
-#include "fap/head/model.h"
+#include "fap/head/people.h"
 #include "fap/turns.h"
 #include "tools/app/commands/avatar_export.h"
 #include "tools/app/commands/options.h"
@@ -76,7 +76,7 @@ studio::HeadChoice head_for(const std::string& own, const studio::HeadChoice& us
   } else if (usual.head == kUsualHeads[0]) {
     choice.head = kUsualHeads[number % std::size(kUsualHeads)];
   }
-  if (choice.head == usual.head || !head::head_parameters(choice.head)) return choice;
+  if (choice.head == usual.head || !head::names_person(choice.head)) return choice;
   studio::HeadChoice built;  // points and shapes are those of files
   built.head = choice.head;
   built.gain = usual.gain;

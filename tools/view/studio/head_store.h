@@ -21,8 +21,9 @@ namespace animeme::studio {
 /// Folder of the cache, which may not exist yet; empty if the environment names none.
 std::string cache_folder();
 
-/// The head of a description (head::parse_head()), with Head::targets as found by make_rig(). `folder`:
-/// the cache; empty: no cache. Errors: those of parse_head(); errors of the cache are ignored.
+/// The head of a description (head::parse_head()), with Head::targets as found by make_rig().
+/// `folder`: the cache; empty: no cache. Errors: those of parse_head(); errors of the cache are
+/// ignored.
 Result<head::Head> ready_head(std::string_view name, const std::string& folder = cache_folder());
 
 /// Serialises a head, without materials, shapes and corners, which built-in heads do not have.
