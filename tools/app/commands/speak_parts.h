@@ -25,49 +25,52 @@ struct OptionTable;
 
 /// Options of `speak`.
 struct SpeakOptions {
-  std::string input;  // a text, or a file
-  speech::SpokenOptions spoken;
-  std::vector<std::string> outputs;
-  std::string output;  // of those, the one that is written
-  std::string preview;
-  std::string model;
-  std::string rate = "25";
-  std::string save_script;
-  std::string report;  // file of --report
-  StreamSettings stream;
-  SoundSettings sound;
-  dam::SynthesisOptions motion;
-  bool no_closure = false;
-  IdleOptions idle;  // neither on nor off: where it can be had
-  OverChoice over;
-  std::string fit;                                      // range of --fit
-  std::shared_ptr<const dam::Performance> performance;  // of --over
-  dam::KeptShares keep;
-  std::optional<dam::Prosody> prosody;  // of the voice, for it
-  bool exact = false;
-  std::string visemes, expressions;  // where FAP 1 and 2 go
-  std::string mood;
-  bool tongue = true;
-  bool no_words = false;
-  bool subtitles = false;
-  bool language_told = false;
-  std::optional<double> least;  // confidence
-  bool json = false;
-  std::vector<std::string> cast;                     // --cast: people who talk to each other
-  std::string turns;                                 // who of them speaks when
-  const dam::Attention* attention = nullptr;         // of one of them
-  std::shared_ptr<const media::EncodedAudio> coded;  // of --audio-codec copy
+  std::string input;                                    ///< a text, or the name of a file
+  speech::SpokenOptions spoken;                         ///< what is said, and by which voice
+  std::vector<std::string> outputs;                     ///< -o
+  std::string output;                                   ///< of those, the one that is written
+  std::string preview;                                  ///< --preview; empty: none
+  std::string model;                                    ///< --model; empty: the built-in one
+  std::string rate = "25";                              ///< --rate, frames per second
+  std::string save_script;                              ///< --save-script; empty: none
+  std::string report;                                   ///< file of --report; empty: none
+  StreamSettings stream;                                ///< coding of the face
+  SoundSettings sound;                                  ///< coding of the sound
+  dam::SynthesisOptions motion;                         ///< rate, style, sharpness
+  bool no_closure = false;                              ///< --no-closure
+  IdleOptions idle;                                     ///< neither on nor off: where it can be had
+  OverChoice over;                                      ///< --over
+  std::string fit;                                      ///< range of --fit; empty: none
+  std::shared_ptr<const dam::Performance> performance;  ///< of --over; null: none
+  dam::KeptShares keep;                                 ///< --keep
+  std::optional<dam::Prosody> prosody;                  ///< of the voice, for idle motion
+  bool exact = false;                                   ///< --exact
+  std::string visemes;                                  ///< where FAP 1 goes
+  std::string expressions;                              ///< where FAP 2 goes
+  std::string mood;                                     ///< --mood
+  bool tongue = true;                                   ///< false: --no-tongue
+  bool no_words = false;                                ///< --no-words
+  bool subtitles = false;                               ///< --subtitles
+  bool language_told = false;                           ///< whether --lang was given
+  std::optional<double> least;                          ///< --min-confidence, 0..1
+  bool json = false;                                    ///< --json
+  std::vector<std::string> cast;                        ///< --cast: people who talk to each other
+  std::string turns;                          ///< --turns: file that says who of them speaks when
+  const dam::Attention* attention = nullptr;  ///< of one of them; borrowed
+  std::shared_ptr<const media::EncodedAudio> coded;  ///< of --audio-codec copy; null: coded anew
 };
 
-/// P, B and M of a part of the speech, and how many of them close the lips.
+/// P, B and M of a part of the speech.
 struct ClosedLips {
-  std::size_t phones = 0, closed = 0;
+  std::size_t phones = 0;  ///< how many there are
+  std::size_t closed = 0;  ///< how many of them close the lips
 };
 
 /// Of the face as it is shown, with all that lies over the speech.
 struct LipClosures {
-  std::vector<std::pair<double, bool>> phones;  // middle in seconds, closed
+  std::vector<std::pair<double, bool>> phones;  ///< of each P, B, M: middle in seconds, closed
 
+  /// Those from `start` on, before `end`, in seconds.
   ClosedLips between(double start, double end) const {
     ClosedLips count;
     for (const auto& [time, closed] : phones) {
@@ -81,10 +84,10 @@ struct LipClosures {
 
 /// What is told of the face that was written first.
 struct ShownFace {
-  std::size_t frames = 0;
-  double seconds = 0;
-  std::optional<dam::OverReport> over;
-  std::optional<LipClosures> lips;
+  std::size_t frames = 0;               ///< of the face
+  double seconds = 0;                   ///< its duration
+  std::optional<dam::OverReport> over;  ///< of --over
+  std::optional<LipClosures> lips;      ///< nullopt: not measured
 };
 
 /// The language of the words. A script may be in any, whatever the default of --lang is; empty:

@@ -36,9 +36,10 @@ struct Utterance {
   /// Of each mark: seconds from where the voice puts it to where it is, because of the breaks
   /// below.
   std::vector<double> mark_shifts;
-  /// Seconds of the breaks in front of all words and behind them. The input does not have them:
-  /// espeak-ng leaves them out.
-  double lead_break = 0, tail_break = 0;
+  /// Seconds of the breaks in front of all words. The input does not have them: espeak-ng leaves
+  /// them out.
+  double lead_break = 0;
+  double tail_break = 0;              ///< likewise behind all words
   std::vector<std::string> warnings;  ///< sentences for the user
 };
 
