@@ -1,23 +1,15 @@
 // Reading takes as long as a script is: no character makes it look at the rest again and again.
 #include <gtest/gtest.h>
 
-#include <ctime>
-
-#include <algorithm>
 #include <string>
 #include <vector>
 
 #include "dam/script/script.h"
+#include "tests/support/growth.h"
 #include "tools/formats/scripts/script_text.h"
 
 namespace animeme::scripts {
 namespace growth_test {
-
-double cpu_seconds() {
-  timespec now{};
-  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
-}
 
 std::string repeated(const std::string& pattern, std::size_t bytes) {
   std::string text;
@@ -68,29 +60,16 @@ std::vector<std::string> patterns() {
   return all;
 }
 
-// The least of three: what another program takes of the caches is not ours.
-double cost(const Wrap& wrap, const std::string& pattern, std::size_t bytes, int tries) {
-  const std::string text = wrap.head + repeated(pattern, bytes) + wrap.tail;
-  double least = 1e9;
-  for (int i = 0; i < tries; ++i) {
-    const double begun = cpu_seconds();
-    const auto read = read_labels(text, {});
-    EXPECT_TRUE(read || !read.error().message.empty());
-    least = std::min(least, cpu_seconds() - begun);
-  }
-  return least;
-}
-
 TEST(Growth, ReadingTakesAsLongAsTheScript) {
-  constexpr std::size_t kShort = 12'000, kLong = 48'000;  // of one cue, within what is read
-  constexpr double kQuick = 0.1;                          // seconds, which says nothing of growth
   for (const Wrap& wrap : kWraps) {
     for (const std::string& pattern : patterns()) {
-      const double long_once = cost(wrap, pattern, kLong, 1);
-      if (long_once < kQuick) continue;
-      // Twice a doubling of at most 2.5 each.
-      const double ratio = cost(wrap, pattern, kLong, 3) / cost(wrap, pattern, kShort, 3);
-      EXPECT_LE(ratio, 2.5 * 2.5) << wrap.name << " of " << pattern << ": " << long_once << " s";
+      const auto read = [&](std::size_t bytes) {
+        const auto labels = read_labels(wrap.head + repeated(pattern, bytes) + wrap.tail, {});
+        EXPECT_TRUE(labels || !labels.error().message.empty());
+      };
+      // Up to 48,000 bytes of one cue, which is within what is read.
+      EXPECT_LT(test::growth(read, 12'000), test::kMoreThanLinear)
+          << wrap.name << " of " << pattern;
     }
   }
 }
