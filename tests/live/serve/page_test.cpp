@@ -51,6 +51,14 @@ TEST(PageOfAHead, TalksAndStaysWithItsHead) {
   EXPECT_TRUE((*server)->find("ben")->figures().asleep);
   ASSERT_TRUE((*server)->find("anna")->say({"Mama, papa, and many more open their mouths."}));
   EXPECT_TRUE(shows(browser, "Number(document.getElementById('mouth').ariaValueNow) > 10"));
+  // Captions: all words of the line, the spoken one marked; a curve in each row, below its name.
+  EXPECT_TRUE(shows(browser,
+                    "/papa.* many more/.test(document.getElementById('captions').textContent) && "
+                    "document.querySelector('#captions b')?.textContent === 'many'"));
+  EXPECT_TRUE(shows(browser, "document.querySelectorAll('#legend li').length === 6"));
+  browser.save_picture(std::filesystem::path(test::kBinaryFolder) /
+                       "screenshots/serve_captions.png");
+  EXPECT_TRUE(shows(browser, "document.getElementById('captions').textContent === ''"));
   // It goes, and comes back: the page joins it again by itself.
   ASSERT_TRUE((*server)->remove("anna"));
   EXPECT_TRUE(shows(browser, "animeme.state === 'ended'"));

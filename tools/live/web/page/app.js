@@ -12,7 +12,7 @@
   const audio = element('audio'), start = element('start'), sound = element('sound');
   const badge = element('state');
   let names = {}, shown, values = {}, measured = 0, counted = [], wanted = true, again;
-  const curves = {numbers: []};
+  const curves = {numbers: []}, captions = new Captions(element('captions'));
 
   const asked = new URLSearchParams(location.search);
   const flag = (name) => asked.has(name) && asked.get(name) !== '0';
@@ -21,6 +21,7 @@
   root.className = bare ? 'bare' : 'whole';
   root.classList.toggle('transparent', flag('transparent'));
   root.classList.toggle('controlled', flag('controls'));
+  root.classList.toggle('captioned', bare ? flag('captions') : asked.get('captions') !== '0');
   // A frame whose scheme differs from that of the page around it would be filled with a colour.
   if (flag('transparent')) document.querySelector('meta[name=color-scheme]').remove();
   audio.muted = flag('muted');
@@ -75,7 +76,10 @@
     state: show,
     hello(faps) { names = faps; },
     frame(frame) { counted.push(frame); },
-    told(message) { tell('message', message); },
+    told(message) {
+      captions.told(message);
+      tell('message', message);
+    },
     blocked() {
       animeme.blocked = true;
       showSound();
@@ -149,6 +153,7 @@
           `${100 * Math.min(1, Face.opening(values))}%`;
       tell('frame', {values, time: frame.time});
     }
+    captions.show(now);
     tell('tick', {now});
     if (element('face')) Face.draw(element('face'), values);
     if (performance.now() - measured > 100) {

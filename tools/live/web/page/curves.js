@@ -1,6 +1,7 @@
-// FAPs that moved in the last seconds as curves, each scaled to its own range.
+// FAPs that moved in the last seconds as curves, a row each, scaled to its own range.
 const Curves = (() => {
   const kSeconds = 5, kMost = 6;
+  const kName = 18;  // pixels of a row for its name
   const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
   // What tells most of a talking face first: jaw, lips, corners of the mouth, brows, lids, head.
@@ -40,12 +41,13 @@ const Curves = (() => {
     const shown = frames.filter((frame) => frame.time > now - kSeconds - 0.2 && frame.time <= now);
     const {numbers, low, high} = choose(shown);
     numbers.forEach((number, index) => {
+      const row = height / kMost, top = index * row + kName, curve = row - kName - 4;
       const span = Math.max(high.get(number) - low.get(number), 1);
       context.beginPath();
       for (const frame of shown) {
         const x = width * (1 - (now - frame.time) / kSeconds);
         const value = frame.values[number] ?? 0;
-        context.lineTo(x, 8 + (height - 16) * (1 - (value - low.get(number)) / span));
+        context.lineTo(x, top + curve * (1 - (value - low.get(number)) / span));
       }
       context.strokeStyle = colour(`--c${index}`);
       context.lineWidth = 2;
