@@ -9,6 +9,7 @@
 #include "dam/signal/closure.h"
 #include "dam/signal/mouth_opening.h"
 #include "dam/signal/rounding.h"
+#include "dam/signal/symmetry.h"
 #include "dam/speaking/frames_internal.h"
 #include "dam/speaking/tongue.h"
 
@@ -47,13 +48,25 @@ class RestGate {
   double lead_in_ = kEndRamp, lead_out_ = kEndRamp;
 };
 
-void to_control_units(const Model& model, const RestGate& gate, double style, Signal& signal) {
+std::vector<double> resting_mouth(const Model& model, const Signal& signal, bool symmetric) {
+  std::vector<double> rest;
+  for (const Control& control : model.controls) rest.push_back(control.rest);
+  if (!symmetric) return rest;
+  std::vector<double> both;
+  for (const MirroredChannel& other : mirrored_channels(signal.names))
+    both.push_back(0.5 * (rest[both.size()] + other.sign * rest[other.channel]));
+  return both;
+}
+
+void to_control_units(const Model& model, const RestGate& gate, const SynthesisOptions& options,
+                      Signal& signal) {
   const std::size_t controls = model.controls.size();
+  const std::vector<double> rest = resting_mouth(model, signal, options.symmetric_rest);
   for (std::size_t i = 0; i < signal.frames(); ++i) {
-    const double shown = style * gate(signal.time(i));
+    const double shown = options.style * gate(signal.time(i));
     for (std::size_t c = 0; c < controls; ++c) {
       double& value = signal.values[i * controls + c];
-      value = model.controls[c].rest + model.controls[c].sd * shown * value;
+      value = rest[c] + model.controls[c].sd * shown * value;
     }
   }
 }
@@ -148,7 +161,7 @@ Result<Signal> synthesise_frames(const Model& model, const Script& script,
       .speak({model, timeline, phone, options, options.rate, plan.first, plan.count}, signal.values,
              report);
   const RestGate gate(*spoken, model.pause_edge, options.rest_at_ends, plan.last_frame);
-  to_control_units(model, gate, options.style, signal);
+  to_control_units(model, gate, options, signal);
   const double articulation = articulation_of(model, options);
   if (articulation > 0) open_mouth(MouthOpening(script), articulation, options.style, signal);
   touch_lips(model, script, options, signal, report);

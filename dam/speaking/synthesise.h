@@ -36,6 +36,10 @@ struct SynthesisOptions {
   /// The tongue by rule (dam/speaking/tongue.h): channels for FAP 44 to 47 behind those of the
   /// model, if that has jaw or lips as FAPs and no tongue.
   bool tongue = false;
+  /// The resting mouth is the same on both sides: of each pair of controls (dam/signal/symmetry.h)
+  /// the mean. Models have the smirk with which their speaker rests, which shows in every pause;
+  /// the motion itself stays as learned.
+  bool symmetric_rest = false;
   bool rest_at_ends = true;      ///< first and last frame are the resting mouth
   double context_weight = 1000;  ///< w_c of Eq. 10, >= 0
   double smoothness_weight = 1;  ///< w_s of Eq. 10, >= 0

@@ -316,7 +316,7 @@ TEST_F(CSpeech, SpeaksAsTheLibraryDoes) {
   ASSERT_TRUE(script);
   dam::SynthesisOptions options;
   options.articulation = 1;
-  options.tongue = true;
+  options.tongue = options.symmetric_rest = true;
   auto signal = dam::synthesise(*builtin, *script, options);
   ASSERT_TRUE(signal);
   ASSERT_TRUE(dam::add_idle_motion(*signal, *script));
@@ -329,7 +329,7 @@ TEST_F(CSpeech, Moods) {
   ASSERT_TRUE(script);
   dam::SynthesisOptions synthesis;
   synthesis.articulation = 1;
-  synthesis.tongue = true;
+  synthesis.tongue = synthesis.symmetric_rest = true;
   auto signal = dam::synthesise(*dam::builtin_model(), *script, synthesis);
   ASSERT_TRUE(signal);
   ASSERT_TRUE(dam::add_idle_motion(*signal, *script));
@@ -388,7 +388,7 @@ TEST_F(CSpeech, LooksAndStaysStill) {
   ASSERT_TRUE(script);
   dam::SynthesisOptions synthesis;
   synthesis.articulation = 1;
-  synthesis.tongue = true;
+  synthesis.tongue = synthesis.symmetric_rest = true;
   auto signal = dam::synthesise(*dam::builtin_model(), *script, synthesis);
   ASSERT_TRUE(signal);
   dam::IdleMotionOptions idle;

@@ -18,7 +18,7 @@ Result<HeadSettings> read(const char* text) { return serve::read_settings(*Json:
 TEST(HeadSettings, EveryMemberIsReadAndWritten) {
   const char* text =
       R"({"model":"m","lang":"de+f2","speed":150,"pitch":70,"tts":"t","voice_rate":24000,"head":"h","rate":"29.97","style":1.2,)"
-      R"("sharpness":2.0,"articulate":0.5,"idle_motion":false,"tongue":false,"over":"take","keep":"lips=0.5","mood":"anger:0.5","seed":9,)"
+      R"("sharpness":2.0,"articulate":0.5,"symmetric":false,"idle_motion":false,"tongue":false,"over":"take","keep":"lips=0.5","mood":"anger:0.5","seed":9,)"
       R"("liveliness":0.5,"still":"gaze,brows","look":"20,-5","intra_seconds":2.0,"encoder_delay":1.5,"quant":3,)"
       R"("sound":false,"audio_codec":"aac","audio_bitrate":64000,"audio_effort":10,"audio_fec":20})";
   const Result<HeadSettings> settings = read(text);

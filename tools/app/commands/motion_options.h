@@ -8,8 +8,8 @@ namespace animeme::tools {
 
 struct OptionTable;
 
-/// Adds --style, --sharpness and --articulate, with the program's defaults: the articulation is
-/// that of the model (Model::articulation).
+/// Adds --style, --sharpness, --articulate and --symmetric, with the program's defaults: the
+/// articulation is that of the model (Model::articulation), and the resting mouth is symmetric.
 void add_motion_options(OptionTable& cli, dam::SynthesisOptions& options);
 
 /// Adds --no-tongue, which clears `tongue`.

@@ -374,12 +374,12 @@ void add_options(OptionTable& cli, SpeakOptions& options) {
   cli.add("--json", options.json, "Print a machine-readable summary");
   cli.add("--report", options.report, "Also write what --json prints to a file")
       ->output(".json", OutputKind::file);
-  cli.show_in_help_all(
-      "Details of coding and alignment",
-      "--rms --kbps --default-ranges --intra-seconds --audio-codec "
-      "--audio-bitrate --exact --min-confidence "
-      "--no-tongue --visemes --expressions --look --still --seed --keep --bend --fit --turns "
-      "--report --speak-marks --script-format --no-closure --max-seconds");
+  cli.show_in_help_all("Details of coding and alignment",
+                       "--rms --kbps --default-ranges --intra-seconds --audio-codec "
+                       "--audio-bitrate --exact --min-confidence "
+                       "--no-tongue --symmetric --visemes --expressions --look --still --seed "
+                       "--keep --bend --fit --turns "
+                       "--report --speak-marks --script-format --no-closure --max-seconds");
 }
 
 const Command kSpeak{

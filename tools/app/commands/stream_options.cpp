@@ -213,7 +213,7 @@ void add_options(OptionTable& cli, StreamOptions& options) {
       "--points --shape-name --shape-names --gain --copy --quant --rms --kbps --small "
       "--default-ranges --encoder-delay --stats --keep --track --pcm --style --fast "
       "--sharpness "
-      "--articulate "
+      "--articulate --symmetric "
       "--audio-codec --audio-bitrate");
 }
 

@@ -345,7 +345,8 @@ typedef struct animeme_speak_options {
   /// 1: FAP 44 to 47 follow the sounds, for models that do not have the tongue; 0: it rests. FAP 47
   /// does not fit into streams with fap_quant 0
   uint32_t tongue;
-  uint32_t reserved_end;  ///< 0
+  /// 0: the resting mouth is the same on both sides; 1: as learned, with the smirk of its speaker
+  uint32_t asymmetric_rest;
 } animeme_speak_options;
 
 /// Sets the defaults.

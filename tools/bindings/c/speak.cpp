@@ -46,6 +46,7 @@ dam::SynthesisOptions synthesis_options(const animeme_speak_options& from) {
   if (!(from.articulation < 0)) options.articulation = from.articulation;
   options.tail = from.tail;
   options.tongue = from.tongue != 0;
+  options.symmetric_rest = from.asymmetric_rest == 0;
   return options;
 }
 

@@ -166,6 +166,8 @@ export interface SpeakOptions {
   still?: string;
   /** FAP 44 to 47 follow the sounds, for models that do not have the tongue (true). */
   tongue?: boolean;
+  /** The resting mouth is the same on both sides (true), or as learned. */
+  symmetric?: boolean;
   /** For begin(): seconds; below 0: unlimited (-1). */
   lookAhead?: number;
 }

@@ -75,7 +75,7 @@ std::unique_ptr<Speech> speak(const Model& model, const py::object& said, const 
                               std::optional<bool> idle_motion, std::uint64_t seed, int speed,
                               int pitch, const std::string& tts, const std::string& mood,
                               double liveliness, const std::string& still, const std::string& look,
-                              bool tongue) {
+                              bool tongue, bool symmetric) {
   speech::SpokenOptions source;
   std::optional<dam::Script> script;
   if (py::isinstance<py::str>(said)) {
@@ -106,7 +106,8 @@ std::unique_ptr<Speech> speak(const Model& model, const py::object& said, const 
        .style = style,
        .sharpness = sharpness,
        .articulation = articulation,
-       .tongue = tongue},
+       .tongue = tongue,
+       .symmetric_rest = symmetric},
       idle_motion,
       {liveliness, seed, value_of(dam::parse_still(still)), value_of(dam::parse_look(look))},
       value_of(dam::read_mood(mood))};
@@ -155,13 +156,15 @@ py::array_t<double> speech_times(const Speech& speech) {
 std::unique_ptr<dam::SpeechStream> make_stream(const Model& model, const py::object& rate,
                                                std::optional<double> look_ahead, double style,
                                                double sharpness, std::optional<double> articulation,
-                                               bool closure, bool tongue, const std::string& mood) {
+                                               bool closure, bool tongue, const std::string& mood,
+                                               bool symmetric) {
   const dam::StreamOptions options{{.rate = rate_of(rate),
                                     .closure = closure,
                                     .style = style,
                                     .sharpness = sharpness,
                                     .articulation = articulation,
-                                    .tongue = tongue},
+                                    .tongue = tongue,
+                                    .symmetric_rest = symmetric},
                                    look_ahead,
                                    dam::StreamOptions().cross_fade,
                                    value_of(dam::read_mood(mood))};
@@ -180,13 +183,14 @@ A frame is returned as soon as no later phone can change it, or earlier with `lo
       .def(py::init(&make_stream), py::arg("model"), py::kw_only(), py::arg("rate") = 25,
            py::arg("look_ahead") = py::none(), py::arg("style") = 1.0, py::arg("sharpness") = 1.0,
            py::arg("articulation") = py::none(), py::arg("closure") = true,
-           py::arg("tongue") = false, py::arg("mood") = "neutral", py::keep_alive<1, 2>(),
+           py::arg("tongue") = false, py::arg("mood") = "neutral", py::arg("symmetric") = true,
+           py::keep_alive<1, 2>(),
            R"(A stream that begins at time 0.
 
 model: who speaks.
 rate: frames a second.
 look_ahead: seconds of script needed beyond a frame; None: everything that can change it.
-style, sharpness, articulation, closure: as for Model.speak().
+style, sharpness, articulation, closure, symmetric: as for Model.speak().
 tongue, mood: likewise; what they move and the model lacks follows its controls as further columns:
     FAP 44 to 47, then FAPs ascending.)")
       .def(
@@ -253,7 +257,7 @@ path, preset, quant, max_rms, max_bits_per_second, intra_seconds: as for Clip.sa
             py::arg("closure") = true, py::arg("idle_motion") = py::none(), py::arg("seed") = 1,
             py::arg("speed") = 175, py::arg("pitch") = 50, py::arg("tts") = "",
             py::arg("mood") = "neutral", py::arg("liveliness") = 1.0, py::arg("still") = "",
-            py::arg("look") = "camera", py::arg("tongue") = true,
+            py::arg("look") = "camera", py::arg("tongue") = true, py::arg("symmetric") = true,
             R"(Speaks: returns a Speech.
 
 said: a text, plain or SSML, for a synthetic voice; or phones, tuples (start, end, label[, word]):
@@ -274,6 +278,7 @@ liveliness, still, look: its amount (0..2); parts without it ("gaze,head,brows,b
 speed, pitch: words a minute (80..450) and pitch (0..100) of the synthetic voice.
 tts: command of a voice of yours, that writes sound to {wav}.
 tongue: FAP 44 to 47 follow the sounds, for models without a tongue; it does not fit into streams with quant=0.
+symmetric: the resting mouth is the same on both sides; False: as learned, with its speaker's smirk.
 mood: "joy", "anger:0.5", "thinking" ...; SSML, emoji and exclamation marks of the text change it.
 
 What a voice left out or spelled is warned of as InputWarning. Raises Error. Other threads run

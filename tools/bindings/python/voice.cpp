@@ -12,12 +12,13 @@ std::unique_ptr<speech::VoiceDrivenFace> make_voice(const Model& model, int samp
                                                     const std::string& lang, const py::object& rate,
                                                     double delay, double style, double sharpness,
                                                     std::optional<double> articulation,
-                                                    bool closure) {
+                                                    bool closure, bool symmetric) {
   const speech::VoiceDrivenFaceOptions options{{.rate = rate_of(rate),
                                                 .closure = closure,
                                                 .style = style,
                                                 .sharpness = sharpness,
-                                                .articulation = articulation},
+                                                .articulation = articulation,
+                                                .symmetric_rest = symmetric},
                                                lang,
                                                delay};
   return value_of(
@@ -55,7 +56,7 @@ the face moves less.)")
       .def(py::init(&make_voice), py::arg("model"), py::arg("sample_rate"), py::kw_only(),
            py::arg("lang") = "en", py::arg("rate") = 25, py::arg("delay") = 0.25,
            py::arg("style") = 1.0, py::arg("sharpness") = 1.0, py::arg("articulation") = py::none(),
-           py::arg("closure") = true, py::keep_alive<1, 2>(),
+           py::arg("closure") = true, py::arg("symmetric") = true, py::keep_alive<1, 2>(),
            R"(A stream that begins with its first sample, at time 0.
 
 model: who speaks.
@@ -63,7 +64,7 @@ sample_rate: samples a second, 4000..384000.
 lang: language of the voice.
 rate: frames a second.
 delay: seconds of sound beyond a frame, 0.08..2.
-style, sharpness, articulation, closure: as for Model.speak().
+style, sharpness, articulation, closure, symmetric: as for Model.speak().
 
 Raises Error.)")
       .def(

@@ -98,7 +98,7 @@ HeadSettings::HeadSettings() {
   voice.lead_silence = 0.1;  // time to open the mouth, as for `stream --say`
   voice.tail_silence = 0.3;
   motion.articulation = std::nullopt;
-  motion.tongue = true;
+  motion.tongue = motion.symmetric_rest = true;
   audio = {media::AudioCodec::opus, 48000, 5};
 }
 
@@ -142,6 +142,7 @@ Result<HeadSettings> read_settings(const Json& json, HeadSettings settings) {
   if (!members.is_null("articulate"))
     members.number("articulate", 0, dam::kMostArticulation, articulation);
   if (articulation >= 0) settings.motion.articulation = articulation;
+  members.flag("symmetric", settings.motion.symmetric_rest);
   members.flag("idle_motion", settings.idle_motion);
   members.flag("tongue", settings.motion.tongue);
   members.text("over", settings.over);
@@ -191,6 +192,7 @@ Json settings_json(const HeadSettings& settings) {
           {"sharpness", settings.motion.sharpness},
           {"articulate",
            settings.motion.articulation ? Json(*settings.motion.articulation) : Json(nullptr)},
+          {"symmetric", settings.motion.symmetric_rest},
           {"idle_motion", settings.idle_motion},
           {"tongue", settings.motion.tongue},
           {"over", settings.over},

@@ -21,13 +21,14 @@ namespace animeme::serve {
 
 /// The comments give the JSON members.
 struct HeadSettings {
-  std::string model;             ///< "model": a name known to the server; empty: built-in
-  voice::VoiceOptions voice;     ///< "lang", "speed" (words a minute), "pitch"
-  std::string tts;               ///< "tts": a command known to the server; empty: espeak-ng
-  int voice_rate = 0;            ///< "voice_rate": Hz, 8000..48000; 0: that of the voice
-  std::string head;              ///< "head": a head of the page; empty: the first one
-  dam::SynthesisOptions motion;  ///< "rate", "style", "sharpness", "articulate", "tongue"
-  bool idle_motion = true;       ///< "idle_motion": gaze, blinks, brows and head
+  std::string model;          ///< "model": a name known to the server; empty: built-in
+  voice::VoiceOptions voice;  ///< "lang", "speed" (words a minute), "pitch"
+  std::string tts;            ///< "tts": a command known to the server; empty: espeak-ng
+  int voice_rate = 0;         ///< "voice_rate": Hz, 8000..48000; 0: that of the voice
+  std::string head;           ///< "head": a head of the page; empty: the first one
+  dam::SynthesisOptions
+      motion;               ///< "rate", "style", "sharpness", "articulate", "symmetric", "tongue"
+  bool idle_motion = true;  ///< "idle_motion": gaze, blinks, brows and head
   /// Of the idle motion: "seed" (0..1e9), "liveliness" (0..2), "still" ("gaze,head"), "look"
   /// ("camera", "20,-5")
   dam::IdleMotionOptions idle;

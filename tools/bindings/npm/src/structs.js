@@ -76,7 +76,7 @@ const expression6 = ({select1 = 0, intensity1 = 0, select2 = 0, intensity2 = 0, 
 /** An animeme_speak_options that `_init` has filled. */
 export function writeSpeakOptions(memory, at, options) {
   const {rate, style, sharpness, articulation, tail, idleMotion, seed, lookAhead, mood, look, still,
-      tongue} = options;
+      tongue, symmetric} = options;
   const view = new DataView(memory, at, SPEAK_OPTIONS_SIZE);
   if (rate !== undefined) {
     const [num, den] = Array.isArray(rate) ? rate : rateOf(rate);
@@ -89,6 +89,7 @@ export function writeSpeakOptions(memory, at, options) {
   if (seed !== undefined) view.setBigUint64(56, BigInt(seed), true);
   if (lookAhead !== undefined) view.setFloat64(64, lookAhead, true);
   if (tongue !== undefined) view.setUint32(168, tongue ? 1 : 0, true);
+  if (symmetric !== undefined) view.setUint32(172, symmetric ? 0 : 1, true);
   [mood, look, still].forEach((text, i) => {
     if (text === undefined) return;
     const bytes = new TextEncoder().encode(text).subarray(0, TEXT_SIZE - 1);

@@ -262,6 +262,7 @@ class Model:
         still: str = "",
         look: str = "camera",
         tongue: bool = True,
+        symmetric: bool = True,
     ) -> Speech: ...
 
 class Speech:
@@ -307,6 +308,7 @@ class SpeechStream:
         closure: bool = True,
         tongue: bool = False,
         mood: str = "neutral",
+        symmetric: bool = True,
     ) -> None: ...
     def push(self, start: float, end: float, label: str, word: str = "") -> NDArray[np.float64]: ...
     def finish(self) -> NDArray[np.float64]: ...
@@ -324,6 +326,7 @@ class VoiceStream:
         sharpness: float = 1.0,
         articulation: Optional[float] = None,
         closure: bool = True,
+        symmetric: bool = True,
     ) -> None: ...
     def push(self, samples: ArrayLike) -> NDArray[np.float64]: ...
     def finish(self) -> NDArray[np.float64]: ...
