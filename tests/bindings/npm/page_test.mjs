@@ -3,7 +3,7 @@
 // <animeme-face> with files, playlists and live faces.
 import assert from 'node:assert/strict';
 import {execFileSync, spawn} from 'node:child_process';
-import {existsSync, mkdtempSync, readdirSync, readFileSync, rmSync} from 'node:fs';
+import {existsSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {createRequire} from 'node:module';
 import {tmpdir} from 'node:os';
 import {dirname, join} from 'node:path';
@@ -184,6 +184,117 @@ test('a playlist plays by MediaSource, from the middle, too', async () => {
   assert.deepEqual(complaints(page), []);
   await page.close();
 });
+
+// A tone as a WAV file of one channel.
+function tone(hertz, seconds) {
+  const rate = 16000, count = rate * seconds, file = Buffer.alloc(44 + 2 * count);
+  file.write('RIFF', 0);
+  file.writeUInt32LE(36 + 2 * count, 4);
+  file.write('WAVEfmt ', 8);
+  file.writeUInt32LE(16, 16);
+  file.writeUInt16LE(1, 20);
+  file.writeUInt16LE(1, 22);
+  file.writeUInt32LE(rate, 24);
+  file.writeUInt32LE(2 * rate, 28);
+  file.writeUInt16LE(2, 32);
+  file.writeUInt16LE(16, 34);
+  file.write('data', 36);
+  file.writeUInt32LE(2 * count, 40);
+  for (let i = 0; i < count; ++i) {
+    file.writeInt16LE(Math.round(9000 * Math.sin(2 * Math.PI * hertz * i / rate)), 44 + 2 * i);
+  }
+  return file;
+}
+
+// Two languages with a tone each: which of them is heard can be measured.
+const talks = {en: ['Good morning my friends, I have a map for you.', 440],
+  de: ['Guten Morgen liebe Freunde, hier ist eine Karte.', 880]};
+const faces = {};
+for (const [lang, [text, hertz]] of Object.entries(talks)) {
+  writeFileSync(join(dir, `${lang}.wav`), tone(hertz, 30));
+  run('speak', '--text', Array(8).fill(text).join(' '), '--lang', lang, '-o', `${lang}.mp4`);
+  run('demux', `${lang}.mp4`, '--face', `${lang}.fba`);
+  faces[lang] = animeme.decode(new Uint8Array(readFileSync(join(dir, `${lang}.fba`))),
+      {shown: true});
+}
+for (const film of ['film.mp4', 'film.m3u8']) {
+  const tracks = Object.keys(talks).flatMap((lang) =>
+      ['--track', `lang=${lang},face=${lang}.mp4,audio=${lang}.wav`]);
+  run('mux', '-o', film, '--fragment-seconds', '0.5', '--intra-seconds', '0.5', ...tracks);
+}
+
+// Hertz of the strongest tone in what is heard now.
+const pitchOf = (page) => page.evaluate(async () => {
+  window.context ??= new AudioContext();
+  await context.resume();
+  face.source ??= new Map();
+  if (!face.source.has(face.audio)) {
+    const analyser = context.createAnalyser();
+    analyser.fftSize = 4096;
+    context.createMediaElementSource(face.audio).connect(analyser);
+    analyser.connect(context.destination);
+    face.source.set(face.audio, analyser);
+  }
+  const analyser = face.source.get(face.audio), bins = new Float32Array(2048);
+  await new Promise((done) => setTimeout(done, 400));
+  analyser.getFloatFrequencyData(bins);
+  return bins.indexOf(Math.max(...bins)) * context.sampleRate / 4096;
+});
+
+for (const film of ['film.mp4', 'film.m3u8']) {
+  test(`another language while it plays: ${film}`, async () => {
+    const page = await open();
+    await put(page, {src: `/media/${film}`, captions: ''});
+    await page.evaluate(() => {
+      window.shown = [];
+      face.addEventListener('frame', ({detail}) => shown.push({language: face.language,
+        number: detail.number, time: detail.time, heard: face.currentTime,
+        caption: face.caption.textContent, values: Array.from(detail.values)}));
+      face.addEventListener('language', ({detail}) => events.push(`language ${detail.lang}`));
+    });
+    await page.wait('face.languages.length === 2 && face.audio.readyState >= 2');
+    assert.deepEqual((await page.evaluate('face.languages')).map(({lang}) => lang), ['en', 'de']);
+    assert.equal(await page.evaluate('face.language'), 'en');
+    await page.evaluate('face.currentTime = 0.3, face.play()');
+    assert.ok(Math.abs(await pitchOf(page) - 440) < 20);
+    await page.evaluate('face.lang = "de"');
+    await page.wait('events.includes("language de")');
+    await page.wait(`shown.filter((one) => one.language === 'de' && one.caption).length > 4`);
+    assert.ok(Math.abs(await pitchOf(page) - 880) < 20);
+    await page.evaluate('face.pause()');
+    const shown = await page.evaluate('shown');
+    assert.ok(shown.some(({language}) => language === 'en'));
+    const german = shown.filter(({language}) => language === 'de');
+    // A frame is of the language that is heard, at the time of its sound; it never goes back.
+    const key = (frame) => frame.map((value) => Math.round(value)).join();
+    let was = 'en';
+    for (const {language, time, heard, values} of shown) {
+      assert.ok(language === 'de' || was === 'en');
+      was = language;
+      const own = faces[language][Math.round(time * 25)];
+      assert.equal(key(values), key(Array.from(own.values)), `${language} at ${time} s`);
+      assert.ok(Math.abs(heard - time) < 0.14, `${language}: frame of ${time} s at ${heard} s`);
+    }
+    assert.match(await page.evaluate('face.lines.map(({text}) => text).join(" ")'), /Freunde/);
+    assert.ok(german.some(({caption}) => /Guten|Freunde|Karte/.test(caption)) &&
+        german.every(({caption}) => !/morning|friends/.test(caption)));
+    assert.equal(await page.evaluate('face.textTracks[0].language'), 'de');
+    assert.ok(await page.evaluate('face.textTracks[0].cues.length > 0'));
+    // Paused, too, and by the attribute of a new file.
+    await page.evaluate('face.lang = ""');
+    await page.wait('face.language === "en"');
+    assert.match(await page.evaluate('face.lines.map(({text}) => text).join(" ")'), /friends/);
+    await put(page, {src: `/media/${film}`, lang: 'de-AT'});
+    await page.wait('face.languages.length === 2');
+    assert.equal(await page.evaluate('face.language'), 'en', 'no such language: the default');
+    await put(page, {src: `/media/${film}`, lang: 'de'});
+    await page.wait('face.language === "de" && face.audio.readyState >= 2');
+    await page.evaluate('face.play()');
+    assert.ok(Math.abs(await pitchOf(page) - 880) < 20);
+    assert.deepEqual(complaints(page), []);
+    await page.close();
+  });
+}
 
 test('a stream without a sound has a clock of its own, and loops', async () => {
   const page = await open();

@@ -3,6 +3,7 @@ import {MediaClock, SilentMedia} from './clock.js';
 import {openFba, openMp4} from './files.js';
 import {openHls} from './hls.js';
 import {ready} from './index.js';
+import {cueAt, languageIn} from './languages.js';
 import {openLive} from './live.js';
 import {Viewport} from './viewport.js';
 import {Track} from './track.js';
@@ -12,10 +13,18 @@ const style = `
   :host { display: inline-block; position: relative; width: 320px; height: 400px; }
   :host([hidden]) { display: none; }
   canvas { display: block; width: 100%; height: 100%; }
-  audio { position: absolute; left: 0; right: 0; bottom: 0; width: 100%; opacity: 0; transition: opacity .2s; }
+  audio { position: absolute; left: 0; right: 0; bottom: 0; width: 100%; opacity: 0;
+    transition: opacity .2s; }
   audio:not([controls]) { display: none; }
+  p { position: absolute; left: 0; right: 0; bottom: 8px; margin: auto; padding: 2px 8px;
+    width: fit-content; max-width: 90%; border-radius: 6px; color: #fff; background: #0b1a24d0;
+    text-align: center;
+    font: 16px system-ui, sans-serif; box-sizing: border-box; }
+  p:empty, :host(:not([captions])) p { display: none; }
+  audio[controls] ~ p { bottom: 62px; }
   :host(:hover) audio, audio:focus, :host([paused]) audio { opacity: .9; }
 `;
+const kAhead = 0.25;  // seconds in which another language gets ready to play
 const forwarded = ['play', 'pause', 'ended', 'seeked', 'timeupdate', 'volumechange', 'ratechange',
     'durationchange'];
 
@@ -27,18 +36,22 @@ function openerOf(url, live) {
 }
 
 export class AnimemeFace extends HTMLElement {
-  static observedAttributes = ['src', 'head', 'controls', 'loop', 'muted', 'label', 'live'];
+  static observedAttributes = ['src', 'head', 'controls', 'loop', 'muted', 'label', 'live', 'lang'];
 
   constructor() {
     super();
     const root = this.attachShadow({mode: 'open'});
     root.innerHTML = `<style>${style}</style><canvas part="canvas" aria-hidden="true"></canvas>
-      <audio part="audio" preload="auto"></audio>`;
+      <audio part="audio" preload="auto"></audio><p part="caption"></p>`;
     this.canvas = root.querySelector('canvas');
+    this.caption = root.querySelector('p');
     this.audio = root.querySelector('audio');
-    for (const name of forwarded) this.audio.addEventListener(name, () => this.tell(name));
+    this.forward(this.audio);
     this.use(this.audio);
     this.track = new Track();
+    this.words = [];
+    this.choices = [];
+    this.chosen = 0;
     this.told = [];
     this.weights = {frame: null, arkit: new Float32Array(61), visemes: new Float32Array(15)};
   }
@@ -74,6 +87,7 @@ export class AnimemeFace extends HTMLElement {
     else if (name === 'loop') this.media.loop = this.audio.loop = now !== null;
     else if (name === 'muted') this.audio.muted = now !== null;
     else if (name === 'label') this.setAttribute('aria-label', now ?? '');
+    else if (name === 'lang') this.changing = this.changeLanguage();
     else if (this.connected) this.restart();
   }
 
@@ -119,18 +133,143 @@ export class AnimemeFace extends HTMLElement {
   get arkit() { return this.weights.arkit; }
   get visemes() { return this.weights.visemes; }
 
+  /** Languages of the file: [{lang, name}]; `lang` chooses one. */
+  get languages() { return this.choices.map(({lang, name}) => ({lang, name})); }
+  /** The one that is heard, seen and said. */
+  get language() { return this.choices[this.chosen]?.lang ?? ''; }
+  /** What is said, as lines {start, end, text}, as far as it was read. */
+  get lines() { return this.words; }
+  /** As of a media element: a track of captions with the cues that were read. */
+  get textTracks() { return this.audio.textTracks; }
+
+  // Only what is played tells of itself.
+  forward(audio) {
+    for (const name of forwarded) {
+      audio.addEventListener(name, () => { if (audio === this.audio) this.tell(name); });
+    }
+  }
+
+  // What a language is read into, beside what is shown.
+  async changeLanguage() {
+    const which = languageIn(this.choices, this.lang), choice = this.choices[which];
+    this.leaving?.abort();
+    this.leaving = null;
+    if (!choice || which === this.chosen) return;
+    const stopped = this.leaving = new AbortController(), {signal} = stopped, before = this.stopped;
+    before.signal.addEventListener('abort', () => {
+      if (this.stopped === before) stopped.abort();
+    });
+    const audio = this.audio.cloneNode();
+    audio.removeAttribute('src');
+    audio.muted = true;
+    const next = {media: audio, track: new Track(), words: [], signal, silent: () => {
+      next.media = this.silentMedia();
+      return next.media;
+    }};
+    audio.currentTime = this.media.currentTime;
+    let problem = null;
+    const loading = choice.open(next);
+    loading.catch((failure) => { problem = failure; });
+    try {
+      if (!await this.beside(next, () => problem || signal.aborted)) {
+        if (problem && !signal.aborted) this.tell('error', problem);
+        stopped.abort();
+        return;
+      }
+    } finally {
+      if (this.leaving === stopped) this.leaving = null;
+    }
+    this.exchange(which, next, audio, stopped);
+  }
+
+  // Brings what is loaded beside what is played; false if `given` up meanwhile.
+  async beside(next, given) {
+    const until = async (good) => {
+      while (!given() && !good()) await new Promise((done) => setTimeout(done, 10));
+      return !given();
+    };
+    const isThere = () => {
+      const {currentTime, duration, seeking, readyState = 4} = next.media;
+      const needed = currentTime < duration ? HTMLMediaElement.HAVE_FUTURE_DATA :
+          HTMLMediaElement.HAVE_CURRENT_DATA;
+      return next.track.at(currentTime) && !seeking && readyState >= needed;
+    };
+    if (!await until(isThere)) return false;
+    for (;;) {
+      const {media} = next, {paused, playbackRate} = this.media;
+      media.currentTime = this.media.currentTime + (paused ? 0 : kAhead * playbackRate);
+      media.playbackRate = playbackRate;
+      if (!await until(isThere)) return false;
+      if (this.media.paused) {
+        if (Math.abs(media.currentTime - this.media.currentTime) < 0.001) return true;
+        continue;
+      }
+      const due = media.currentTime;
+      if (!await until(() => this.media.paused || this.media.currentTime >= due)) return false;
+      if (this.media.paused) continue;
+      await media.play();
+      return !given();
+    }
+  }
+
+  // At once: sound, face and words.
+  exchange(which, next, audio, stopped) {
+    const {audio: old, media, stopped: before} = this;
+    const {loop, muted, volume} = old;
+    media.pause();
+    Object.assign(this, {chosen: which, track: next.track, words: next.words, stopped});
+    Object.assign(audio, {loop, volume, muted});
+    old.replaceWith(audio);
+    this.audio = audio;
+    this.forward(audio);
+    this.use(next.media);
+    this.weights.frame = null;
+    before.abort();
+    old.removeAttribute('src');
+    old.load();
+    this.draw();
+    this.tell('language', this.languages[which]);
+  }
+
+  // Cues come while the file is read.
+  say(now) {
+    const {audio, words} = this;
+    const cue = cueAt(words, now);
+    if (words.length && audio.cuesOf !== words) {
+      audio.cuesOf = words;
+      audio.cued = 0;
+      audio.said = audio.addTextTrack('captions', this.choices[this.chosen]?.name ?? '',
+          this.language);
+      audio.said.mode = 'hidden';
+    }
+    const known = words.length - (this.complete ? 0 : 1);  // the last line may grow
+    for (; audio.cuesOf === words && audio.cued < known; ++audio.cued) {
+      const {start, end, text} = words[audio.cued];
+      audio.said.addCue(new VTTCue(start, end, text));
+    }
+    const text = cue?.text ?? '';
+    if (this.caption.textContent === text) return;
+    this.caption.textContent = text;
+    this.caption.lang = this.language;
+    this.tell('cue', cue);
+  }
+
   use(media) {
     this.media = media;
     this.clock = new MediaClock(media);
   }
 
-  silent() {
+  silentMedia() {
     const media = new SilentMedia();
     for (const name of ['play', 'pause', 'ended', 'seeked']) media.addEventListener(name,
-        () => this.tell(name));
+        () => { if (media === this.media) this.tell(name); });
     media.loop = this.hasAttribute('loop');
-    this.use(media);
     return media;
+  }
+
+  silent() {
+    this.use(this.silentMedia());
+    return this.media;
   }
 
   loadHead() {
@@ -151,13 +290,16 @@ export class AnimemeFace extends HTMLElement {
     if (src === this.opened) return;
     this.stop();
     this.opened = src;
+    this.openedIn = this.lang;
     if (!src) return;
     const url = new URL(src, document.baseURI).href, open = openerOf(src,
         this.hasAttribute('live'));
     const stopped = this.stopped = new AbortController();
     this.track = new Track();
+    this.words = [];
     const source = {media: this.audio, silent: () => this.silent(), track: this.track,
-        signal: stopped.signal,
+        words: this.words, signal: stopped.signal, lang: this.lang,
+        offer: (choices) => this.offer(choices),
       lost: (problem) => this.lose(problem), told: (text) => this.hear(text)};
     if (open === openFba) source.media = this.silent();
     else this.use(this.audio);
@@ -165,13 +307,27 @@ export class AnimemeFace extends HTMLElement {
       this.fitters = {arkit: new ArkitFitter(), visemes: new VisemeFitter()};
       this.startsBySelf = this.hasAttribute('autoplay') || open === openLive;
       return open(url, source);
-    }).then(() => this.tell('load'), (problem) => { if (!stopped.signal.aborted) this.fail(problem);
+    }).then(() => {
+      this.complete = true;
+      this.tell('load');
+    }, (problem) => { if (!stopped.signal.aborted) this.fail(problem);
         });
     this.loading.catch(() => {});
   }
 
+  // The file has languages. What `lang` was when it was opened is chosen already.
+  offer(choices) {
+    this.choices = choices;
+    this.chosen = languageIn(choices, this.openedIn);
+    this.tell('languages', this.languages);
+    if (this.lang !== this.openedIn) this.changing = this.changeLanguage();
+  }
+
   stop() {
+    this.leaving?.abort();
     this.stopped?.abort();
+    Object.assign(this, {choices: [], chosen: 0, words: [], complete: false});
+    this.caption.textContent = '';
     this.opened = null;
     this.media.pause();
     if (this.audio.src) {
@@ -230,6 +386,7 @@ export class AnimemeFace extends HTMLElement {
     this.begin();
     const now = this.clock.now();
     while (this.told.length && !(this.told[0].time > now)) this.tell('speech', this.told.shift());
+    this.say(now);
     const frame = this.track.at(now) ?? this.track.frames[0];
     if (frame && frame !== this.weights.frame && this.fitters) {
       this.weights.frame = frame;

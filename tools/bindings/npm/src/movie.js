@@ -1,4 +1,4 @@
-// The contents (moov) of an mp4: which track is a face, and where its samples lie.
+// The contents (moov) of an mp4: its tracks, and where the samples of a face or of words lie.
 import {boxesIn, find, fullBox, typeAt} from './boxes.js';
 import {AnimemeError} from './library.js';
 
@@ -153,30 +153,66 @@ function samplesOf(view, stbl, track, most) {
   return samples;
 }
 
+const textAt = (view, begin, end) => new TextDecoder().decode(
+    new Uint8Array(view.buffer, view.byteOffset + begin, Math.max(end - begin, 0)))
+    .replace(/\0.*$/s, '');
+
+// What tells a track from others: {lang, speaker, name} by elng, else mdhd, and the name "words
+// (Ann)" of its handler.
+function labelsOf(view, trak, mdhd) {
+  const elng = find(view, trak, 'mdia', 'elng'), hdlr = find(view, trak, 'mdia', 'hdlr');
+  const packed = view.getUint16(ofVersion(view, mdhd, 20, 32));
+  const three = [10, 5, 0].map((shift) =>
+      String.fromCharCode((packed >> shift & 31) + 96)).join('');
+  const lang = elng ? textAt(view, elng.begin + 4, elng.end) : three === 'und' ? '' : three;
+  const title = hdlr ? textAt(view, hdlr.begin + 24, hdlr.end) : '';
+  const [, name, speaker = ''] = /^(.*?)(?: \((.*)\))?$/s.exec(title);
+  return {lang, name, speaker};
+}
+
+// 'face', 'sound', 'text' or null, and the configuration of a face.
+function kindOf(view, stbl) {
+  const config = faceConfiguration(view, stbl);
+  if (config) return {kind: 'face', config};
+  const stsd = find(view, stbl, 'stsd');
+  const type = stsd && stsd.end - stsd.begin >= 16 ? typeAt(view, stsd.begin + 12) : '';
+  const kind = {mp4a: 'sound', Opus: 'sound', tx3g: 'text', mett: 'text'}[type] ?? null;
+  return {kind, config: null};
+}
+
 /**
- * The face of a movie: {id, config, timescale, shift, defaults, samples, duration}; null if there
- * is none.
+ * The tracks of a movie whose kind is known: {kind, id, lang, speaker, name, config, timescale,
+ * trak}.
  */
-export function readMovie(view, moov, most) {
-  const mvhd = find(view, moov, 'mvhd');
-  const movieTimescale = mvhd ? view.getUint32(ofVersion(view, mvhd, 12, 20)) || 1 : 1;
+export function tracksOf(view, moov) {
+  const tracks = [];
   for (const trak of boxesIn(view, moov.begin, moov.end)) {
     const stbl = trak.type === 'trak' && find(view, trak, 'mdia', 'minf', 'stbl');
-    const config = stbl && faceConfiguration(view, stbl);
-    if (!config) continue;
+    const {kind, config} = stbl ? kindOf(view, stbl) : {};
+    if (!kind) continue;
     const tkhd = find(view, trak, 'tkhd'), mdhd = find(view, trak, 'mdia', 'mdhd');
     if (!tkhd || !mdhd) throw broken('a track has no header');
-    const timescale = view.getUint32(ofVersion(view, mdhd, 12, 20)) || 1;
-    const track = {id: view.getUint32(ofVersion(view, tkhd, 12, 20)), config, timescale,
-                   shift: shiftOf(view, trak, timescale, movieTimescale),
-                       defaults: {duration: 0, size: 0, flags: 0}};
-    for (const box of boxesIn(view, moov.begin, moov.end)) {
-      if (box.type === 'mvex') track.defaults = defaultsOf(view, box, track.id) ?? track.defaults;
-    }
-    track.samples = samplesOf(view, stbl, track, most);
-    return track;
+    tracks.push({kind, id: view.getUint32(ofVersion(view, tkhd, 12, 20)), config, trak,
+      timescale: view.getUint32(ofVersion(view, mdhd, 12, 20)) || 1,
+      ...labelsOf(view, trak, mdhd)});
   }
-  return null;
+  return tracks;
+}
+
+/**
+ * One of tracksOf() with {shift, defaults, samples}.
+ */
+export function readTrack(view, moov, track, most) {
+  const mvhd = find(view, moov, 'mvhd');
+  const movieTimescale = mvhd ? view.getUint32(ofVersion(view, mvhd, 12, 20)) || 1 : 1;
+  const {trak, timescale} = track;
+  const out = {...track, shift: shiftOf(view, trak, timescale, movieTimescale),
+      defaults: {duration: 0, size: 0, flags: 0}};
+  for (const box of boxesIn(view, moov.begin, moov.end)) {
+    if (box.type === 'mvex') out.defaults = defaultsOf(view, box, track.id) ?? out.defaults;
+  }
+  out.samples = samplesOf(view, find(view, trak, 'mdia', 'minf', 'stbl'), out, most);
+  return out;
 }
 
 function defaultsOf(view, mvex, id) {

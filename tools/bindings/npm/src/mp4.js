@@ -3,21 +3,30 @@
 import {boxAt} from './boxes.js';
 import {readFragment} from './fragment.js';
 import {AnimemeError} from './library.js';
-import {readMovie} from './movie.js';
+import {readTrack, tracksOf} from './movie.js';
 
 const kFirst = ['ftyp', 'styp', 'moov', 'moof', 'mdat', 'free', 'skip', 'wide', 'sidx'];
 
 const kMostWaiting = 1_000_000;  // samples of fragments
 
-/** Push bytes, get access units: {time, duration (seconds), bytes, intra}. */
+const firstFace = (tracks) => tracks.find(({kind}) => kind === 'face');
+
+/**
+ * Push bytes, get access units: {time, duration (seconds), bytes, intra}. `choose` picks one of the
+ * tracks (tracksOf() of movie.js, with the place `at` of each in the file); by default it is the
+ * first face.
+ */
 export class Mp4Reader {
-  constructor() {
+  constructor(choose = firstFace) {
+    this.choose = choose;
+    /** What there is, once the contents were read. */
+    this.tracks = null;
     this.bytes = new Uint8Array(0);
     this.base = 0;     // place of the first of these bytes in the file
     this.at = 0;       // place of the next box
     this.pending = [];
     this.next = 0;
-    /** Its face, once its contents were read: config, timescale. */
+    /** The one that is read, once the contents were read: config, timescale. */
     this.track = null;
     this.fragments = false;
   }
@@ -71,12 +80,14 @@ export class Mp4Reader {
   }
 
   readContents(view, moov) {
-    const track = readMovie(view, moov, Number.MAX_SAFE_INTEGER);
-    if (!track) throw new AnimemeError('unsupported', 'there is no face in this mp4');
+    this.tracks = tracksOf(view, moov).map((each) =>
+        ({...each, at: this.base + each.trak.begin - 4}));
+    const chosen = this.choose(this.tracks);
+    if (!chosen) throw new AnimemeError('unsupported', 'there is no face in this mp4');
+    const {samples, ...track} = readTrack(view, moov, chosen, Number.MAX_SAFE_INTEGER);
     this.track = track;
-    this.pending = track.samples;
+    this.pending = samples;
     this.next = 0;
-    delete track.samples;
   }
 
   readFragment(view, moof) {
