@@ -62,7 +62,8 @@ bool lacks_encoder(const test::ProgramResult& out) {
 TEST(RenderVideo, PicturesAndSoundOfTheClip) {
   const TempDir dir;
   write_talk(dir);
-  for (const auto& [name, codec] : {std::pair{"talk.mp4", "h264"}, std::pair{"talk.webm", "vp9"}}) {
+  for (const auto& [name, codec] : {std::pair{"talk.mp4", "h264"}, std::pair{"talk.webm", "vp9"},
+                                    std::pair{"talk.mov", "prores"}}) {
     const auto out = animeme({"render", dir / "talk.fap", "--audio", dir / "voice.wav", "--size",
                               "97x65", "-o", dir / name});
     if (lacks_encoder(out)) GTEST_SKIP() << out.err;
@@ -150,6 +151,15 @@ TEST(RenderVideo, Transparent) {
     ++beside;
   EXPECT_GE(beside, 10u);
   EXPECT_THAT(video, HasSubstr("ALPHA_MODE"));
+
+  // ProRes 4444, whose sample entry says 32 bits a pixel where there is alpha.
+  const auto edited = animeme({"render", dir / "talk.fap", "--size", "96x96", "--background",
+                               "none", "-o", dir / "talk.mov"});
+  ASSERT_EQ(edited.exit_code, 0) << edited.err;
+  const std::string movie = test::slurp(dir / "talk.mov");
+  const std::size_t entry = movie.find("ap4h");
+  ASSERT_LT(entry + 80, movie.size());
+  EXPECT_EQ(movie[entry + 79], 32);
 
   const auto frames = animeme({"render", dir / "talk.fap", "--size", "64x64", "--background",
                                "none", "-o", dir / "f_%03d.png"});

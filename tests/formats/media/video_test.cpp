@@ -168,6 +168,8 @@ TEST(VideoCodecFor, ExtensionsThatHoldVideo) {
   EXPECT_TRUE(video_codec_for(".mp4"));
   const Result<VideoCodec> webm = video_codec_for(".webm");
   EXPECT_TRUE(!webm || *webm == VideoCodec::vp9);
+  const Result<VideoCodec> mov = video_codec_for(".mov");
+  EXPECT_TRUE(!mov || *mov == VideoCodec::prores);
   EXPECT_EQ(video_codec_for(".ts").error().code, Code::unsupported);
 }
 

@@ -44,6 +44,9 @@ struct RenderOptions {
   std::string view = "front";
   double up = 0;
   double zoom = 1;
+  double lens = 0;
+  std::string aim = "face";
+  bool follow = false;
   std::string size = "640x640";
   bool size_told = false;
   std::string background;
@@ -123,10 +126,16 @@ Result<Plan> make_plan(const RenderOptions& options) {
     if (!background) return background.error();
     plan.background = *background;
   }
-  plan.look = {options.head,   render::view_degrees(options.view).value_or(0),
-               options.up,     options.zoom,
-               plan.size.x,    plan.size.y,
-               plan.background};
+  plan.look = {options.head,
+               render::view_degrees(options.view).value_or(0),
+               options.up,
+               options.zoom,
+               plan.size.x,
+               plan.size.y,
+               plan.background,
+               options.lens,
+               options.aim == "mouth",
+               options.follow};
   return plan;
 }
 
@@ -319,7 +328,8 @@ Result<int> draw_all(const RenderOptions& options) {
   if (options.captions && !film) return usage_error("--captions is for videos and frame_%04d.png");
   if (plan->look.background.kind == studio::Background::Kind::none && options.output != "-" &&
       !studio::keeps_alpha(extension)) {
-    return usage_error("--background none needs a file with transparency: .webm, .webp or .png");
+    return usage_error(
+        "--background none needs a file with transparency: .webm, .mov, .webp or .png");
   }
   if (pictures && studio::is_film(extension) && !studio::is_picture(extension)) {
     return usage_error(
@@ -354,10 +364,11 @@ Result<int> run(const RenderOptions& options) {
 void add_options(OptionTable& cli, RenderOptions& options) {
   cli.add("input", options.input, "FAP text, FBA stream, container or table of curves");
   cli.add("-o,--output", options.output,
-          "File to write: .mp4 or .mkv (H.264), .webm (VP9), .webp or .gif (animated, silent); a "
+          "File to write: .mp4 or .mkv (H.264), .webm (VP9), .mov (ProRes 4444), .webp or .gif "
+          "(animated, silent); a "
           "still or sheet as .png, .jpg or .webp (with --time and the like); frame_%04d.png, a "
           "picture a frame; - is PNG on standard output")
-      ->output(".png .jpg .jpeg .webp .gif .mp4 .webm .mkv", OutputKind::file_or_dash)
+      ->output(".png .jpg .jpeg .webp .gif .mp4 .webm .mkv .mov", OutputKind::file_or_dash)
       ->required();
   cli.add("--shapes", options.shapes,
           "Instead of a file: neutral face and all visemes or expressions")
@@ -385,13 +396,23 @@ void add_options(OptionTable& cli, RenderOptions& options) {
   cli.add("--zoom", options.zoom, "1: head and shoulders; 2: twice as near")
       ->between(0.2, 20.0)
       ->show_default();
+  cli.add("--aim", options.aim, "What is in the middle of the picture: face or mouth")
+      ->one_of("face mouth")
+      ->show_default();
+  cli.add("--lens", options.lens,
+          "Focal length, as of 35 mm film: 24 exaggerates the nose, 135 flattens; the head keeps "
+          "its size; default: 61")
+      ->type("MM")
+      ->between(10, 1000);
+  cli.add("--follow", options.follow, "The camera goes with the head, which stays in its place");
   cli.add("--size", options.size, "Size of one picture in pixels, WIDTHxHEIGHT; of people 960x540")
       ->type("WIDTHxHEIGHT")
       ->check(problem_of_pixels)
       ->show_default()
       ->sets(options.size_told);
   cli.add("--background", options.background,
-          "Behind the head: none (transparent: .webm, .webp, .png), a colour (#336699, white, lime "
+          "Behind the head: none (transparent: .webm, .mov, .webp, .png), a colour (#336699, "
+          "white, lime "
           "...) or a picture (.png, .jpg, .webp), which fills the frame; default: grey")
       ->type("COLOUR|PICTURE")
       ->check(problem_of<studio::parse_background>);
@@ -417,9 +438,9 @@ void add_options(OptionTable& cli, RenderOptions& options) {
   cli.add("--audio-bitrate", options.audio_bit_rate, "Video: bits per second of the sound")
       ->between(6000, 320000);
   add_track_option(cli, options.track);
-  cli.show_in_help_all("Details of heads and scripts",
+  cli.show_in_help_all("Details of heads, cameras and scripts",
                        "--shape-name --shape-names --tier --speak-marks --script-format "
-                       "--max-seconds --audio-bitrate");
+                       "--max-seconds --audio-bitrate --aim --lens --follow");
 }
 
 }  // namespace

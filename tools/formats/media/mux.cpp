@@ -33,7 +33,10 @@ struct FileType {
   bool is_ts() const { return std::string_view(muxer) == "mpegts"; }
   bool is_segments() const { return std::string_view(muxer) == "segments"; }
   bool takes(AudioCodec codec) const { return codec == AudioCodec::opus ? opus : aac; }
-  bool takes(VideoCodec codec) const { return codec == VideoCodec::vp9 ? vp9 : h264; }
+  bool takes(VideoCodec codec) const {
+    if (codec == VideoCodec::prores) return extension == ".mov";
+    return codec == VideoCodec::vp9 ? vp9 : h264;
+  }
 };
 
 // clang-format off
@@ -46,6 +49,7 @@ constexpr FileType kTypes[] = {
     {".mpd",  "segments", true,  true,  true,  false, false, false},
     {".m4a",  "mp4",      false, true,  false, false, false, false},
     {".mka",  "matroska", false, true,  true,  false, false, false},
+    {".mov",  "mov",      false, true,  false, true,  false, false},
     {".webm", "webm",     false, false, true,  false, true,  false},
     {".weba", "webm",     false, false, true,  false, false, false},
     {".opus", "opus",     false, false, true,  false, false, false},

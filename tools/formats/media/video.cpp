@@ -12,9 +12,9 @@ namespace animeme::media {
 namespace {
 
 // By VideoCodec.
-constexpr std::array kCodecNames = {"h264", "vp9", "mpeg4"};
+constexpr std::array kCodecNames = {"h264", "vp9", "mpeg4", "prores"};
 // Asked for by name: FFmpeg's own choice for H.264 may be hardware that is not there.
-constexpr std::array kEncoders = {"libx264", "libvpx-vp9", "mpeg4"};
+constexpr std::array kEncoders = {"libx264", "libvpx-vp9", "mpeg4", "prores_ks"};
 
 const char* encoder_of(VideoCodec codec) { return kEncoders[std::size_t(codec)]; }
 
@@ -30,13 +30,15 @@ Result<void> check(const VideoSettings& settings) {
   if (settings.quality < 0 || settings.quality > 51) {
     return invalid("the quality of a video is 0 (best) to 51");
   }
-  if (settings.alpha && settings.codec != VideoCodec::vp9)
-    return make_error(Code::unsupported, "only VP9 (.webm) has transparent videos");
+  if (settings.alpha && settings.codec != VideoCodec::vp9 && settings.codec != VideoCodec::prores)
+    return make_error(Code::unsupported, "only VP9 (.webm) and ProRes (.mov) have transparency");
   if (settings.threads < 1 || settings.threads > 64) return invalid("1 to 64 threads");
   return {};
 }
 
 AVPixelFormat format_of(const VideoSettings& settings) {
+  if (settings.codec == VideoCodec::prores)
+    return settings.alpha ? AV_PIX_FMT_YUVA444P10 : AV_PIX_FMT_YUV444P10;
   return settings.alpha ? AV_PIX_FMT_YUVA420P : AV_PIX_FMT_YUV420P;
 }
 
@@ -56,6 +58,11 @@ void set_options(const VideoSettings& settings, AVCodecContext& codec, av::Optio
     case VideoCodec::mpeg4:  // 2..31
       codec.flags |= AV_CODEC_FLAG_QSCALE;
       codec.global_quality = FF_QP2LAMBDA * (2 + settings.quality * 29 / 51);
+      break;
+    case VideoCodec::prores:  // 1..16
+      options.set("profile", std::string("4444"));
+      options.set("vendor", std::string("apl0"));  // some programs read no other
+      codec.global_quality = FF_QP2LAMBDA * (1 + settings.quality * 15 / 51);
       break;
   }
 }
@@ -113,12 +120,14 @@ const char* name_of(VideoCodec codec) { return kCodecNames[std::size_t(codec)]; 
 Result<VideoCodec> video_codec_for(std::string_view extension) {
   constexpr std::array kAny = {VideoCodec::h264, VideoCodec::vp9, VideoCodec::mpeg4};
   constexpr std::array kWebm = {VideoCodec::vp9};
+  constexpr std::array kMov = {VideoCodec::prores};
   std::span<const VideoCodec> wanted;
   if (extension == ".mp4" || extension == ".mkv") wanted = kAny;
   if (extension == ".webm") wanted = kWebm;
+  if (extension == ".mov") wanted = kMov;
   if (wanted.empty()) {
     return make_error(Code::unsupported, "cannot write a video as \"" + std::string(extension) +
-                                             "\"; use .mp4, .webm or .mkv");
+                                             "\"; use .mp4, .webm, .mkv or .mov");
   }
   for (const VideoCodec codec : wanted) {
     if (avcodec_find_encoder_by_name(encoder_of(codec)) != nullptr) return codec;

@@ -24,16 +24,17 @@ namespace animeme::media {
 
 /// Codecs of the preview.
 enum class VideoCodec : std::uint8_t {
-  h264,   ///< by libx264; most compatible
-  vp9,    ///< by libvpx; free of patent questions
-  mpeg4,  ///< part 2, which every FFmpeg has; large files
+  h264,    ///< by libx264; most compatible
+  vp9,     ///< by libvpx; free of patent questions
+  mpeg4,   ///< part 2, which every FFmpeg has; large files
+  prores,  ///< ProRes 4444, for editing programs; ten bits, large files
 };
 
-/// "h264", "vp9" or "mpeg4".
+/// "h264", "vp9", "mpeg4" or "prores".
 const char* name_of(VideoCodec codec);
 
-/// The first codec that suits a file with this extension (".mp4", ".webm", ".mkv") and that this
-/// FFmpeg can encode. Errors: unsupported (another extension, or no encoder available).
+/// The first codec that suits a file with this extension (".mp4", ".webm", ".mkv", ".mov") and that
+/// this FFmpeg can encode. Errors: unsupported (another extension, or no encoder available).
 Result<VideoCodec> video_codec_for(std::string_view extension);
 
 /// Encoder settings.
@@ -46,7 +47,8 @@ struct VideoSettings {
   int quality = 20;
   /// Encoder threads. The output depends on the number, so it does not default to the machine's.
   int threads = 4;
-  /// Pixels have alpha, too: VP9 only, in .webm and .mkv. Players without it show the colours.
+  /// Pixels have alpha, too: VP9 in .webm and .mkv, ProRes in .mov. Players without it show the
+  /// colours.
   bool alpha = false;
 };
 

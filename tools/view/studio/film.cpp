@@ -216,9 +216,10 @@ Result<Film> write_any(const std::string& path, const fap::Sequence& clip,
                        const tools::Log& log, const tools::Progress& progress) {
   const std::string extension = tools::extension_of(path);
   if (options.look.background.kind == Background::Kind::none && !keeps_alpha(extension)) {
-    return make_error(Code::unsupported,
-                      "a file of this kind has no transparency; write .webm, .webp (animated), or "
-                      "a .png a frame (frame_%04d.png)");
+    return make_error(
+        Code::unsupported,
+        "a file of this kind has no transparency; write .webm, .mov, .webp (animated), or "
+        "a .png a frame (frame_%04d.png)");
   }
   if (is_picture_sequence(path)) return write_sequence(path, clip, options, log, progress);
   return is_animation(extension) ? write_animation(path, clip, options, log, progress)
@@ -232,7 +233,7 @@ bool is_picture_sequence(const std::string& path) {
 }
 
 bool keeps_alpha(const std::string& extension) {
-  return extension == ".webm" || extension == ".webp" || extension == ".png";
+  return extension == ".webm" || extension == ".mov" || extension == ".webp" || extension == ".png";
 }
 
 bool is_animation(const std::string& extension) {
@@ -243,7 +244,7 @@ int picture_quality(int quality) { return std::clamp(100 - quality, 1, 100); }
 
 bool is_film(const std::string& extension) {
   return extension == ".mp4" || extension == ".webm" || extension == ".mkv" ||
-         is_animation(extension);
+         extension == ".mov" || is_animation(extension);
 }
 
 Result<Film> write_film(const std::string& path, const fap::Sequence& clip,

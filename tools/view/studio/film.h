@@ -52,13 +52,15 @@ bool is_animation(const std::string& extension);
 /// Whether the path names a picture for each frame: ".png" with one %d or %04d in its name.
 bool is_picture_sequence(const std::string& path);
 
-/// Whether a file with this extension (in lower case) keeps transparency: .webm, .webp, .png.
+/// Whether a file with this extension (in lower case) keeps transparency: .webm, .mov, .webp,
+/// .png.
 bool keeps_alpha(const std::string& extension);
 
 /// The quality of JPEG and WebP, 1..100, for one of FilmOptions.
 int picture_quality(int quality);
 
-/// Whether write_film() supports the extension (in lower case): .mp4, .webm, .mkv, .webp, .gif.
+/// Whether write_film() supports the extension (in lower case): .mp4, .webm, .mkv, .mov, .webp,
+/// .gif.
 bool is_film(const std::string& extension);
 
 /// Renders `clip` (filled) and writes it with `sound` (audio or encoded; its face becomes a

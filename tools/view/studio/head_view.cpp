@@ -17,13 +17,34 @@ namespace {
 // their camera stands higher, by this share of what is seen more.
 constexpr float kRise = 0.75f;
 
+void move(render::Camera& camera, const head::Vec3& by) {
+  camera.eye += by;
+  camera.target += by;
+}
+
+// The middle of the lips where they touch: of their two contact points.
+head::Vec3 mouth_of(const head::Head& head, const head::Vec3& otherwise) {
+  if (!head.point("2.2").exists() || !head.point("2.3").exists()) return otherwise;
+  return (head.at("2.2") + head.at("2.3")) * 0.5f;
+}
+
+// As much at the target from nearer or from further away: of film for photographs, 24 mm are high.
+void set_lens(render::Camera& camera, double millimetres) {
+  constexpr double kHalfHeight = 12;
+  const double tangent = kHalfHeight / millimetres;
+  const double ratio = std::tan(camera.view_angle / 2.0) / tangent;
+  camera.eye = camera.target + (camera.eye - camera.target) * float(ratio);
+  camera.view_angle = float(2 * std::atan(tangent));
+}
+
 render::Camera camera_of(const head::Head& head, const HeadLook& look) {
-  const render::Camera usual = render::look_at(head, look.degrees, look.up, look.zoom);
+  render::Camera usual = render::look_at(head, look.degrees, look.up, look.zoom);
+  if (look.mouth) move(usual, mouth_of(head, usual.target) - usual.target);
   render::Camera camera = render::fit_to(usual, look.width, look.height);
   const float more = std::tan(camera.view_angle / 2) - std::tan(usual.view_angle / 2);
   const head::Vec3 rise = camera.up * (kRise * more * length(camera.eye - camera.target));
-  camera.eye += rise;
-  camera.target += rise;
+  if (!look.mouth) move(camera, rise);
+  if (look.lens > 0) set_lens(camera, look.lens);
   return camera;
 }
 
@@ -44,11 +65,13 @@ struct HeadView::State {
       : head(std::move(made)),
         rig(head::make_rig(head)),
         camera(camera_of(head, look)),
+        follow(look.follow),
         renderer(options_of(look, std::move(behind))) {}
 
   head::Head head;
   head::Rig rig;
   render::Camera camera;
+  bool follow;
   render::Renderer renderer;
   head::Pose pose;
 };
@@ -72,7 +95,9 @@ const render::Image& HeadView::draw(const fap::Frame& frame,
   head::PoseOptions options;
   options.visemes = visemes;
   head::pose(state.rig, frame, state.pose, options);
-  return state.renderer.render(render::scene_of(state.head, state.rig, state.pose), state.camera);
+  render::Camera camera = state.camera;
+  if (state.follow) move(camera, state.pose.head(camera.target) - camera.target);
+  return state.renderer.render(render::scene_of(state.head, state.rig, state.pose), camera);
 }
 
 Result<render::Image> draw_sheet(const HeadLook& look, std::span<const ShownFrame> frames,

@@ -24,6 +24,10 @@ struct HeadLook {
   int height = 640;    ///< pixels
   /// What is behind the head. With Kind::none the pictures have alpha.
   Background background = {};
+  /// Focal length in millimetres, as of a camera for 35 mm film; the picture shows as much. 0: 61.
+  double lens = 0;
+  bool mouth = false;   ///< the camera looks at the mouth, not at the middle of the face
+  bool follow = false;  ///< the camera goes with the head, which then stays in its place
 };
 
 /// Movable, not copyable.

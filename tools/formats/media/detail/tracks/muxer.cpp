@@ -103,12 +103,19 @@ Result<void> Muxer::add_video(const EncodedVideo& video) {
   if (stream == nullptr) return av::no_memory();
   AVCodecParameters& parameters = *stream->codecpar;
   parameters.codec_type = AVMEDIA_TYPE_VIDEO;
-  parameters.codec_id = video.codec == VideoCodec::h264  ? AV_CODEC_ID_H264
-                        : video.codec == VideoCodec::vp9 ? AV_CODEC_ID_VP9
-                                                         : AV_CODEC_ID_MPEG4;
+  // By VideoCodec.
+  constexpr AVCodecID kIds[] = {AV_CODEC_ID_H264, AV_CODEC_ID_VP9, AV_CODEC_ID_MPEG4,
+                                AV_CODEC_ID_PRORES};
+  parameters.codec_id = kIds[std::size_t(video.codec)];
   parameters.width = video.width;
   parameters.height = video.height;
   parameters.format = video.alpha ? AV_PIX_FMT_YUVA420P : AV_PIX_FMT_YUV420P;
+  if (video.codec == VideoCodec::prores) {
+    parameters.format = video.alpha ? AV_PIX_FMT_YUVA444P10 : AV_PIX_FMT_YUV444P10;
+    parameters.codec_tag =
+        MKTAG('a', 'p', '4', 'h');  // of ProRes 4444, which the packets do not say
+    parameters.bits_per_coded_sample = video.alpha ? 32 : 24;
+  }
   parameters.color_range = AVCOL_RANGE_MPEG;
   parameters.color_space = AVCOL_SPC_BT709;
   parameters.color_primaries = AVCOL_PRI_BT709;
@@ -118,7 +125,8 @@ Result<void> Muxer::add_video(const EncodedVideo& video) {
   stream->avg_frame_rate = av_inv_q(video_track_.base);
   stream->time_base = {1, int(container_timescale(video.rate.num))};
   stream->disposition = AV_DISPOSITION_DEFAULT;
-  if (video.alpha) av_dict_set(&stream->metadata, "alpha_mode", "1", 0);
+  if (video.alpha && video.codec == VideoCodec::vp9)
+    av_dict_set(&stream->metadata, "alpha_mode", "1", 0);
   return {};
 }
 
