@@ -66,6 +66,7 @@ class Collector {
     add(plane.intra ? (facts_.planes > 1 ? "plane.intra_again" : "plane.intra")
                     : "plane.predictive");
     add_if(spec.start_code == StartCode::old_plane, "start_old.plane");
+    add_if(!spec.object_start.empty(), "start_again.object");
     temporal(plane);
     if (plane.intra && fba::has_face(plane.object_mask)) face_settings(spec.face);
     if (plane.intra && fba::has_body(plane.object_mask)) body_settings(spec.body);
@@ -204,7 +205,9 @@ class Collector {
     for (const PlaneSpec& spec : specs_) {
       alphabets(writer, spec);
       const Expected written = writer.write(spec);
-      if (spec.start_code == StartCode::none) begins.push_back(written.bit_begin);
+      if (spec.start_code == StartCode::none && spec.object_start.empty()) {
+        begins.push_back(written.bit_begin);
+      }
     }
     for (const std::size_t begin : begins) {
       if (facts_.ambiguous_bit < 0 && looks_like_the_end(writer.bits().bit, begin)) {

@@ -63,6 +63,7 @@ void body(std::string& out, const fba::BodySettings& settings) {
 
 bool expressible(const PlaneSpec& plane) {
   if (plane.object_mask == fba::ObjectMask::nothing || plane.damage != Damage::none) return false;
+  if (!plane.object_start.empty()) return false;
   if (!plane.intra || !fba::has_face(plane.object_mask)) return true;
   const fba::FaceSettings& face = plane.face;
   const bool both = face.send_range[fba::kPredictiveMax] && face.send_range[fba::kPredictiveMin];
@@ -201,7 +202,7 @@ void CaseBuilder::add(const PlaneSpec& plane, Levels levels) {
   for (int turn = 0; turn < kTries; ++turn) {
     drawn = plane;
     draw_levels(drawn, levels);
-    if (plane.start_code != StartCode::none) break;
+    if (plane.start_code != StartCode::none || !plane.object_start.empty()) break;
     StreamWriter probe = writer_;
     const Expected written = probe.write(drawn);
     if (!looks_like_the_end(probe.bits().bit, written.bit_begin)) break;

@@ -153,6 +153,22 @@ void object_cases(std::uint64_t seed, std::vector<MadeCase>& out) {
   out.push_back(empty.finish());
 }
 
+// Two objects with headers, one behind the other: the loop of the standard's visual object
+// sequence. The second one says all of its own.
+void joined_object_cases(std::uint64_t seed, std::vector<MadeCase>& out) {
+  const Bytes both_headers = {0, 0, 1, 0xB0, 0x61, 0, 0, 1, 0xB5, 0x23};
+  CaseBuilder b(seed, "object_again", "two objects with headers, one behind the other",
+                "frames are counted on; ranges and values of the first object end with it");
+  b.headers = both_headers;
+  b.add_group(lips(), 11);
+  PlaneSpec second = intra_face(some_faps({3, 19, 20, 31, 32, 48, 49, 50}, 4));
+  second.object_start = both_headers;
+  append(second.object_start, start_code(fba::kObjectStart & 0xFF));
+  b.add(second);
+  for (int k = 0; k < 12; ++k) b.add(predictive());
+  out.push_back(b.finish(false));
+}
+
 // Cases whose last plane ends where it has to for the test.
 void end_cases(std::uint64_t seed, std::vector<MadeCase>& out) {
   const auto until = [&](const char* name, const char* title, const char* note, std::size_t rest,
@@ -237,6 +253,7 @@ void make_stream_cases(std::uint64_t seed, std::vector<MadeCase>& out) {
   header_cases(seed, out);
   time_cases(seed, out);
   object_cases(seed, out);
+  joined_object_cases(seed, out);
   end_cases(seed, out);
   short_plane_cases(seed, out);
 }

@@ -66,6 +66,7 @@ const std::vector<Family>& families() {
       {"plane", "intra and predictive planes", "2", 'C', {"intra", "predictive", "intra_again"}},
       {"start", "object start codes", "1", 'C', {"object"}},
       {"start_old", "start codes of the 1999 edition", "1", 'S', {"object", "plane"}},
+      {"start_again", "objects one behind the other in a stream", "1", 'M', {"object"}},
       {"plane_code", "plane start codes", "1", 'S', {"none", "intra", "all", "some"}},
       {"header", "headers before the object", "1", 'S', {"sequence", "visual_object", "user_data"}},
       {"end", "how the stream ends", "1", 'C', {"stuffed", "aligned"}},

@@ -16,12 +16,24 @@ class Leveller {
       const std::uint8_t last = bytes[std::size_t(plane.bit_begin / 8) - 1];
       spec.start_code = last == (fba::kPlaneStart & 0xFF) ? StartCode::plane : StartCode::old_plane;
     }
+    object_start(bytes, plane, spec);
     if (fba::has_face(plane.object_mask)) face(plane, spec);
     if (fba::has_body(plane.object_mask)) body(plane, spec);
     return spec;
   }
 
  private:
+  // What lies behind the stuffing of the plane before, where that is no start code of a plane.
+  void object_start(std::span<const std::uint8_t> bytes, const fba::Plane& plane, PlaneSpec& spec) {
+    const std::size_t begin = std::size_t(last_end_ / 8 + 1),
+                      end = std::size_t(plane.bit_begin / 8);
+    if (last_end_ > 0 && !plane.start_code && begin + 4 <= end) {
+      spec.object_start.assign(bytes.begin() + std::ptrdiff_t(begin),
+                               bytes.begin() + std::ptrdiff_t(end));
+    }
+    last_end_ = plane.bit_end;
+  }
+
   void face(const fba::Plane& plane, PlaneSpec& spec) {
     const fba::FaceSettings& settings = *plane.face_settings;
     if (plane.intra) spec.face = settings;
@@ -62,6 +74,7 @@ class Leveller {
     }
   }
 
+  std::int64_t last_end_ = 0;  // of the plane before
   std::array<std::int32_t, kHighCount> high_{};
   std::array<std::int32_t, fap::kFapCount + 1> fap_{};
   std::array<std::int32_t, fba::kBapCount + 1> bap_{};

@@ -154,6 +154,8 @@ Expected StreamWriter::write(const PlaneSpec& plane) {
     bits_.stuff();
     bits_.put(plane.start_code == StartCode::plane ? fba::kPlaneStart : fba::kOldPlaneStart, 32);
   }
+  if (!plane.object_start.empty()) bits_.stuff();
+  for (const std::uint8_t byte : plane.object_start) bits_.put(byte, 8);
   Expected expected;
   expected.intra = plane.intra;
   expected.object_mask = plane.object_mask;

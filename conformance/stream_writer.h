@@ -49,9 +49,11 @@ struct PlaneSpec {
   bool intra = false;                                   ///< is_intra
   fba::ObjectMask object_mask = fba::ObjectMask::face;  ///< fba_object_mask
   StartCode start_code = StartCode::none;               ///< start code before the plane
-  fba::TemporalHeader temporal;                         ///< rate, time code, skipped frames
-  fba::FaceSettings face;                               ///< intra planes with a face
-  fba::BodySettings body;                               ///< intra planes with a body
+  /// Start codes of another object before the plane, with its headers: the object before ends.
+  std::vector<std::uint8_t> object_start;
+  fba::TemporalHeader temporal;  ///< rate, time code, skipped frames
+  fba::FaceSettings face;        ///< intra planes with a face
+  fba::BodySettings body;        ///< intra planes with a body
   /// Levels: the value in steps in an intra plane, else the difference in steps. Selections have
   /// step 1.
   std::array<std::int32_t, kHighCount> high{};

@@ -91,6 +91,9 @@ class StandardDecoder {
       const unsigned code = code_at(border());
       if (code == 0x1BB || code == 0x103) {
         at_ = border() + 32;
+      } else if (!planes.empty() && (code == 0x1B0 || code == 0x1BA || code == 0x101)) {
+        at_ = border();
+        headers();  // of another object
       } else if (!planes.empty() && (code >> 8 == 1 || border() >= bytes_.size() * 8)) {
         return planes;
       }

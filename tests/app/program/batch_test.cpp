@@ -51,9 +51,9 @@ TEST(Batch, EqualsTheSingleCommands) {
         "dash\t-5 degrees\t\t\t\t\t\t\t.fap\r\n"
         "said\t\t" +
             script +
-            "\t\t\t\t\t\t.fba export:.livelink.csv\r\n"
+            "\t\t\t\t--default-ranges\t\t.fba export:.livelink.csv\r\n"
             "coded\t\t\t" +
-            clip + "\t\t\t\t--quant 4\t.fba\r\n");
+            clip + "\t\t\t\t--quant 4 --preset live --default-ranges\t.fba\r\n");
   succeeds(batch_line(dir / "m.tsv", dir / "out"));
   const std::string one = dir / "one";
   fs::create_directories(one + "/de");
@@ -65,9 +65,12 @@ TEST(Batch, EqualsTheSingleCommands) {
   // The title of a plot is the file's name as it was given.
   succeeds({"speak", "--text", "Guten Tag", "--lang", "de", "-o", one + "/de/tag.fba"});
   succeeds({"speak", "--text=-5 degrees", "-o", one + "/dash.fap"});
-  succeeds({"speak", "--script", script, "-o", one + "/said.fba"});
+  succeeds({"speak", "--script", script, "-o", one + "/said.fba", "--default-ranges"});
   succeeds({"export", one + "/said.fba", "-o", one + "/said.livelink.csv"});
-  succeeds({"encode", clip, "--quant", "4", "-o", one + "/coded.fba"});
+  succeeds({"encode", clip, "--quant", "4", "--preset", "live", "--default-ranges", "-o",
+            one + "/coded.fba"});
+  succeeds({"encode", clip, "--quant", "4", "--preset", "live", "-o", dir / "own_ranges.fba"});
+  EXPECT_LT(fs::file_size(one + "/coded.fba"), fs::file_size(dir / "own_ranges.fba"));
   auto made = contents(dir / "out");
   EXPECT_THAT(made["index.tsv"], HasSubstr("de/tag\tok\tde/tag.fba\t"));
   EXPECT_THAT(made["report.html"], HasSubstr("5 clips: 5 done"));
