@@ -49,6 +49,14 @@ TEST(ExchangeVisemes, WeightsAddUpToOne) {
   }
 }
 
+TEST(ExchangeVisemes, WithoutACrossfadeTheFrameOfABeginHasTheNewViseme) {
+  const auto track = track_of_events({{0, 0.2, "P", 1}, {0.2, 0.2, "S", 7}}, {25, 1}, 0);
+  ASSERT_TRUE(track);
+  ASSERT_EQ(track->frames.size(), 10U);
+  EXPECT_EQ(track->frames[4][1], 1);
+  EXPECT_EQ(track->frames[5][7], 1);
+}
+
 TEST(ExchangeVisemes, TracksThatCannotBe) {
   EXPECT_EQ(track_of_events(script_events(kScript), {0, 0}, 0).error().code,
             Code::invalid_argument);

@@ -46,6 +46,7 @@ TEST(TranscriptReadings, EachWayThatPeopleSay) {
       {"en", "3:45", {"three forty-five", "quarter to four"}},
       {"en", "3:45pm", {"three forty-five p m"}},
       {"en", "9:00", {"nine o'clock", "nine"}},
+      {"en", "9:40", {"nine forty", "twenty to ten"}},
       {"en",
        "12/05/2024",
        {"December fifth twenty twenty-four", "the fifth of December twenty twenty-four",
@@ -87,6 +88,29 @@ TEST(TranscriptReadings, EachWayThatPeopleSay) {
           << row.language << " " << row.text << ": " << way << " is not in " << listed(tokens[0]);
     }
   }
+}
+
+// The first reading behind what is written is the one that people use.
+TEST(TranscriptReadings, RomanceLanguagesSayDecimalsAsANumber) {
+  SKIP_WITHOUT_ICU();
+  const std::pair<const char*, const char*> kRows[] = {
+      {"fr", "trois virgule vingt-cinq"}, {"es", "tres coma veinticinco"},
+      {"it", "tre virgola venticinque"},  {"pt", "três vírgula vinte e cinco"},
+      {"de", "drei Komma zwei fünf"},     {"nl", "drie komma twee vijf"}};
+  for (const auto& [language, first] : kRows) {
+    const auto tokens = tokens_with_readings("3,25", language);
+    ASSERT_EQ(tokens.size(), 1u) << language;
+    ASSERT_GT(tokens[0].readings.size(), 1u) << language;
+    EXPECT_EQ(tokens[0].readings[1], first) << language;
+  }
+}
+
+TEST(Unicode, DatesOfTheCalendar) {
+  SKIP_WITHOUT_ICU();
+  EXPECT_TRUE(is_date(1, 1, 1) && is_date(9999, 12, 31) && is_date(2000, 2, 29));
+  EXPECT_FALSE(is_date(0, 1, 1) || is_date(10000, 1, 1) || is_date(1900, 2, 29));
+  EXPECT_FALSE(is_date(2024, 0, 1) || is_date(2024, 13, 1) || is_date(2024, 1, 0));
+  EXPECT_FALSE(is_date(2024, 4, 31) || is_date(2023, 2, 29));
 }
 
 TEST(TranscriptReadings, TokensAsWritten) {

@@ -101,6 +101,8 @@ TEST(Written, TimesTelephonesAddresses) {
   EXPECT_EQ(read("at 3:45 pm or 15:30"), "at 3:45 pm or 15:30");
   EXPECT_EQ(read("15h30", "fr"), "15 heures 30");
   EXPECT_EQ(read("+1 (555) 123-4567"), "1, 5 5 5, 1 2 3, 4 5 6 7");
+  EXPECT_EQ(read("555-123-4567"), "5 5 5, 1 2 3, 4 5 6 7");
+  EXPECT_EQ(read("555-1234"), "5 5 5, 1 2 3 4");
   EXPECT_EQ(read("http://x.y/z"), "x.y, z");
   EXPECT_EQ(read("see https://www.example.com/."), "see example.com.");
 }
