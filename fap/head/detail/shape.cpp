@@ -108,8 +108,10 @@ double Shape::upper_lip(double x) const {
 
 double Shape::lower_lip(double x) const {
   const double t = std::min(x / (p.mouth_width * 1.06), 1.0);
-  const double arch = 0.84 * std::pow(1 - std::pow(t, 2.1), 0.8);
-  return lip_line(x) - p.lip_fullness * arch - 0.025;
+  const double arch = 0.84 * std::pow(1 - std::pow(t, 2.6), 0.72);
+  // The dip of the contact line would be a keel here.
+  const double level = 0.05 * std::exp(-std::pow(t / 0.22, 2));
+  return lip_line(x) + level - p.lip_fullness * arch - 0.025;
 }
 
 double Shape::lip_body(double x) const {
