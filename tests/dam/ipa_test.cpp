@@ -121,6 +121,7 @@ TEST(Ipa, MarksChangeFeatures) {
 
 TEST(Ipa, DiphthongsAreToldByWhereTheyBeginAndEnd) {
   EXPECT_EQ(labels("aɨ"), "AY");
+  EXPECT_EQ(labels("ʌɪ") + " " + labels("ʌʊ"), "AY AW") << "as some dictionaries write them";
   EXPECT_EQ(labels("æʊ"), "AW");
   EXPECT_EQ(labels("ɔø"), "AO UH");  // ends rounded: not OY
   EXPECT_EQ(labels("ie"), "IY EY");
