@@ -175,12 +175,11 @@ void place_corners(const Surface& surface, const View& view, std::size_t first, 
   }
 }
 
+float lid_shadow(Vec3 normal) { return 1 - 0.4f * head::smooth_step(0.0f, 0.42f, normal.y); }
+
 float eye_highlight(Vec3 normal, const View& view) {
-  const Vec3 n = normalised(normal);
-  const float key = std::max(dot(n, normalised(view.key + view.back)), 0.0f);
-  const float fill = std::max(dot(n, normalised(view.fill + view.up * 0.8f + view.back)), 0.0f);
-  const float sharp = head::smooth_step(0.967f, 0.980f, key);
-  return 235 * sharp + 30 * power(key, 5) + 110 * head::smooth_step(0.987f, 0.993f, fill);
+  const float key = std::max(dot(normal, normalised(view.key + view.back)), 0.0f);
+  return 235 * head::smooth_step(0.972f, 0.983f, key) + 30 * power(key, 5);
 }
 
 }  // namespace animeme::render::detail

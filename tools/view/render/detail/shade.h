@@ -52,7 +52,11 @@ void place_corners(const Surface& surface, const View& view, std::size_t first, 
 /// sRGB value 0..255 of linear light; below 0 is 0, above 1 255.
 float shown(float light);
 
-/// Added to the colour of an eye with this normal, 0..255.
+/// How much an eye with this normal (of length 1) has of its colour below the upper lid, which is
+/// between it and the light: 0.6..1.
+float lid_shadow(head::Vec3 normal);
+
+/// Added to the colour of an eye with this normal (of length 1), 0..255.
 float eye_highlight(head::Vec3 normal, const View& view);
 
 }  // namespace animeme::render::detail

@@ -113,7 +113,8 @@ struct Tile::Planes {
     shown = colour(x, y);
     if (eye) {
       const F4 n = normal(x, y);
-      shown += splat(eye_highlight({n[0], n[1], n[2]}, view));
+      const head::Vec3 facing = normalised(head::Vec3{n[0], n[1], n[2]});
+      shown = shown * splat(lid_shadow(facing)) + splat(eye_highlight(facing, view));
     }
     return 1;
   }

@@ -70,9 +70,7 @@ vec3 filmic(vec3 x) {
 }
 float highlight(vec3 n) {
   float k = max(dot(n, normalize(key + back)), 0.0);
-  float f = max(dot(n, normalize(fill + back)), 0.0);
-  return (235.0 * smoothstep(0.978, 0.988, k) + 30.0 * power(k, 5) +
-      26.0 * smoothstep(0.972, 0.99, f)) / 255.0;
+  return (235.0 * smoothstep(0.972, 0.983, k) + 30.0 * power(k, 5)) / 255.0;
 }
 vec3 lit(vec3 n, vec3 surface) {
   vec3 toEye = normalize(eye - at);
@@ -97,7 +95,8 @@ void main() {
   vec3 n = facing / max(length(facing), 1e-6);
   vec3 surface = warmth >= 0.0 ? heatColour(min(warmth, 1.0)) : mix(albedo, tint.rgb, tint.a);
   vec3 shown = filmic(lit(n, surface));
-  if (eyeball) shown += highlight(n);
+  // The upper lid is between the eye and the light.
+  if (eyeball) shown = shown * (1.0 - 0.4 * smoothstep(0.0, 0.42, n.y)) + highlight(n);
   colour = vec4(clamp(shown, 0.0, 1.0), opacity);
 }`;
 
