@@ -88,6 +88,7 @@ std::vector<std::uint8_t> configuration(std::uint8_t profile) {
 
 struct UnitReader::Impl {
   ReadStreamAt source;
+  std::optional<UnitSource> units;  // in place of `source`
   UnitSummary summary;
   TimeBase base;
   Decoder decoder;
@@ -99,6 +100,7 @@ struct UnitReader::Impl {
   std::int64_t first_number = 0;
   AccessUnit unit;
   std::optional<AccessUnit> ahead;
+  Result<void> trouble;
 
   // nullopt: there are no more.
   Result<std::optional<Plane>> next_plane() {
@@ -130,7 +132,9 @@ struct UnitReader::Impl {
     window_begin += over;
   }
 
+  // An error is told by next().
   void rewind() {
+    if (units) trouble = units->rewind();
     decoder = Decoder();
     window.clear();
     window_begin = 0;
@@ -164,7 +168,7 @@ struct UnitReader::Impl {
   }
 
   Result<void> add_up() {
-    Peak<std::int64_t> peak(base.timescale);
+    Peak<std::int64_t> peak(summary.timescale);
     for (;;) {
       const Result<const AccessUnit*> next_unit = next();
       if (!next_unit) return next_unit.error();
@@ -206,7 +210,15 @@ struct UnitReader::Impl {
     return {};
   }
 
+  Result<const AccessUnit*> next_of_source() {
+    if (!trouble) return trouble.error();
+    const Result<bool> more = units->next(unit);
+    if (!more) return more.error();
+    return *more ? &unit : nullptr;
+  }
+
   Result<const AccessUnit*> next() {
+    if (units) return next_of_source();
     if (!begun) {
       if (auto read = read_ahead(); !read) return read.error();
     }
@@ -245,6 +257,18 @@ Result<UnitReader> UnitReader::open(ReadStreamAt read) {
   impl->source = std::move(read);
   if (auto seen = impl->look(); !seen) return seen.error();
   if (auto added = impl->add_up(); !added) return added.error();
+  return UnitReader(std::move(impl));
+}
+
+Result<UnitReader> UnitReader::open(std::vector<std::uint8_t> config, std::uint32_t timescale,
+                                    UnitSource source) {
+  auto impl = std::make_unique<Impl>();
+  impl->units = std::move(source);
+  impl->summary.config = std::move(config);
+  impl->summary.timescale = timescale;
+  impl->rewind();
+  if (auto added = impl->add_up(); !added) return added.error();
+  if (impl->summary.units == 0) return make_error(Code::truncated, "the face has no access units");
   return UnitReader(std::move(impl));
 }
 

@@ -40,7 +40,13 @@ struct UnitSummary {
 using ReadStreamAt =
     std::function<Result<std::size_t>(std::uint64_t offset, std::span<std::uint8_t>)>;
 
-/// Gives the units of a raw stream, again and again.
+/// Units that are kept somewhere else with their times.
+struct UnitSource {
+  std::function<Result<bool>(AccessUnit&)> next;  ///< fills it; false: there are no more
+  std::function<Result<void>()> rewind;           ///< next() gives the first unit again
+};
+
+/// Gives the units of a raw stream, or of a source, again and again.
 class UnitReader {
  public:
   /// Reads the stream for the first time, with some 100 kB of it in memory. Errors: those of
@@ -48,6 +54,10 @@ class UnitReader {
   static Result<UnitReader> open(ReadStreamAt read);
   /// The same from memory, which is borrowed.
   static Result<UnitReader> open(std::span<const std::uint8_t> stream);
+  /// Reads a source for the first time. Its units have positive durations and ascending times from
+  /// 0 on. Errors: those of `source`; truncated (there is no unit).
+  static Result<UnitReader> open(std::vector<std::uint8_t> config, std::uint32_t timescale,
+                                 UnitSource source);
   UnitReader(UnitReader&&) noexcept;  ///< movable
   UnitReader& operator=(UnitReader&&) noexcept;
   ~UnitReader();

@@ -10,6 +10,7 @@
 #include "tools/formats/media/audio.h"
 #include "tools/formats/media/container.h"
 #include "tools/formats/media/mux.h"
+#include "tools/formats/media/stored.h"
 #include "tools/formats/media/track_labels.h"
 
 namespace animeme::media {
@@ -307,6 +308,53 @@ TEST(TrackLabels, TransportStreamsTellLanguages) {
   EXPECT_EQ(write(many, "seven.ts").error().code, Code::unsupported);
   EXPECT_EQ(write({version(labels("pl", "pol", "Ann"), 10, 24000, "")}, "ann.ts").error().code,
             Code::unsupported);
+}
+
+// An hour, made of a second of coded sound: times of faces and sounds are exact to the last one.
+TEST(TrackLabels, LanguagesAreInStepAfterAnHour) {
+  const test::TempDir dir;
+  const std::string path = dir.file("hour.mp4"), copy = dir.file("copy.mp4");
+  const auto second = encode_audio(test::make_clicks(8000, 8000, {4000}));
+  ASSERT_TRUE(second);
+  EncodedAudio sound{second->format, {}, std::int64_t(3600) * 8000};
+  for (std::int64_t time = -sound.format.priming; time < sound.length;) {
+    sound.packets.push_back(second->packets[sound.packets.size() % second->packets.size()]);
+    sound.packets.back().time = time;
+    time += sound.packets.back().duration = sound.format.frame_samples;
+  }
+  // Ten frames of 29.97 a second each.
+  const fba::AccessUnits faces[] = {test::make_face(10789, 30000, 10010),
+                                    test::make_face(10700, 30000, 10010)};
+  const TrackLabels told[] = {labels("en", "eng"), labels("de", "deu")};
+  MuxInput input{.face = &faces[0], .encoded = &sound, .labels = told[0]};
+  input.more.push_back({.face = &faces[1], .encoded = &sound, .labels = told[1]});
+  ASSERT_TRUE(write_container(path, input));
+  for (int i = 0; i < 2; ++i) {
+    const TrackScope scope(told[i]);
+    const auto face = read_container(path);
+    ASSERT_TRUE(face) << face.error().describe();
+    ASSERT_EQ(face->face.units.size(), faces[i].units.size());
+    for (std::size_t k = 0; k < faces[i].units.size(); ++k) {
+      ASSERT_EQ(face->face.units[k].time, faces[i].units[k].time) << k;
+    }
+    auto back = StoredAudio::read(path);
+    ASSERT_TRUE(back) << back.error().describe();
+    EXPECT_EQ(back->length(), sound.length);
+    EXPECT_EQ(back->format(), sound.format);
+    for (const AudioPacket& packet : sound.packets) {
+      const auto next = back->next();
+      ASSERT_TRUE(next && *next != nullptr);
+      ASSERT_EQ((*next)->time, packet.time);
+      ASSERT_EQ((*next)->bytes, packet.bytes);
+    }
+    EXPECT_EQ(*back->next(), nullptr);
+  }
+  // Sound that is read while it is written gives the same file.
+  auto stored = StoredAudio::read(path);
+  ASSERT_TRUE(stored);
+  ASSERT_TRUE(write_container(copy, {.face = &faces[0], .stored = &*stored}));
+  ASSERT_TRUE(write_container(path, {.face = &faces[0], .encoded = &sound}));
+  EXPECT_TRUE(test::slurp(copy) == test::slurp(path));
 }
 
 TEST(TrackLabels, AreParsed) {

@@ -6,6 +6,7 @@
 #include "tools/formats/media/audio.h"
 #include "tools/formats/media/container.h"
 #include "tools/formats/media/mux.h"
+#include "tools/formats/media/stored.h"
 
 namespace animeme::media {
 namespace round_trip_test {
@@ -91,6 +92,7 @@ class RoundTrip : public testing::Test {
     }
     ++streamed_;
     const FaceSummary& facts = **summary;
+    expect_stored(path, whole.face);
     EXPECT_EQ(facts.format, whole.format);
     EXPECT_EQ(facts.visual_profile, whole.visual_profile);
     EXPECT_EQ(facts.timescale, whole.face.timescale);
@@ -103,6 +105,25 @@ class RoundTrip : public testing::Test {
       EXPECT_EQ(face.units[i].bytes, whole.face.units[i].bytes) << i;
       EXPECT_EQ(face.units[i].intra, whole.face.units[i].intra) << i;
       EXPECT_EQ(face.units[i].duration, whole.face.units[i].duration) << i;
+    }
+  }
+
+  // So has what is kept in a temporary file, again and again.
+  static void expect_stored(const std::string& path, const fba::AccessUnits& face) {
+    auto stored = store_face(path);
+    ASSERT_TRUE(stored) << stored.error().describe();
+    ASSERT_EQ(stored->has_value(), face.units.front().time >= 0);
+    for (int pass = 0; *stored && pass < 2; ++pass) {
+      fba::UnitReader& units = **stored;
+      EXPECT_EQ(units.summary().config, face.config);
+      EXPECT_EQ(units.summary().timescale, face.timescale);
+      for (const fba::AccessUnit& expected : face.units) {
+        const auto unit = units.next();
+        ASSERT_TRUE(unit && *unit != nullptr);
+        EXPECT_TRUE(**unit == expected);
+      }
+      EXPECT_EQ(*units.next(), nullptr);
+      units.rewind();
     }
   }
 

@@ -188,9 +188,11 @@ std::string summary(const media::MuxInput& input, const media::MuxOptions& optio
   }
   if (sound_seconds > 0) {
     text += ", sound " + seconds_text(sound_seconds);
-    text += input.encoded == nullptr || !copied
-                ? std::string(" as ") + name_of(options.audio.codec)
-                : std::string(" copied (") + name_of(input.encoded->format.codec) + ")";
+    const media::AudioFormat* coded = input.stored != nullptr    ? &input.stored->format()
+                                      : input.encoded != nullptr ? &input.encoded->format
+                                                                 : nullptr;
+    text += coded == nullptr || !copied ? std::string(" as ") + name_of(options.audio.codec)
+                                        : std::string(" copied (") + name_of(coded->codec) + ")";
   }
   return text;
 }

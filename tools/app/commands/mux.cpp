@@ -68,25 +68,32 @@ Result<fba::AccessUnits> for_segments(fba::AccessUnits units, bool coded,
   return std::move(**again);
 }
 
-// A stream in a file that is written while it is read.
+// A face that is written while it is read.
 struct LongFace {
-  std::string stream;                     // path; empty: the face has to be in memory
+  std::optional<fba::UnitReader> units;   // nullopt: the face has to be in memory
   std::unique_ptr<ScratchFolder> folder;  // where it is, if it was made of text
 };
+
+Result<LongFace> read_long_stream(const std::string& path,
+                                  std::unique_ptr<ScratchFolder> folder = nullptr) {
+  Result<fba::UnitReader> units = open_units(path);
+  if (!units) return units.error();
+  return LongFace{std::move(*units), std::move(folder)};
+}
 
 Result<LongFace> code_long_text(const MuxOptions& options) {
   const Result<FapFile> text = FapFile::open(options.face);
   if (!text) return text.error();
   Result<std::unique_ptr<ScratchFolder>> folder = ScratchFolder::make();
   if (!folder) return folder.error();
-  LongFace face{(*folder)->file("face.fba"), std::move(*folder)};
+  const std::string stream = (*folder)->file("face.fba");
   const fap::Rate rate = text->survey().rate;
   const fba::ClipSource source{
       rate, [&text](const fba::TakeInstant& take) {
         return text->for_each([&](const fap::Frame& frame) { return take(&frame, nullptr); });
       }};
   AtStep step(Step::coding);
-  std::ofstream out(face.stream, std::ios::binary);
+  std::ofstream out(stream, std::ios::binary);
   std::size_t size = 0;
   const auto coded = fba::encode_long(
       source, unit_options(options.stream, rate), [&](std::span<const std::uint8_t> bytes) {
@@ -97,17 +104,27 @@ Result<LongFace> code_long_text(const MuxOptions& options) {
   if (!coded) return coded.error();
   if (options.stream.default_ranges) warn_of_default_ranges(coded->default_ranges);
   out.close();
-  if (!out) return make_error(Code::io, "cannot write the file").in_file(face.stream);
+  if (!out) return make_error(Code::io, "cannot write the file").in_file(stream);
   step.made(size);
-  return face;
+  return read_long_stream(stream, std::move(*folder));
 }
 
-// An intact stream or a text.
+// Out of a container, with its times.
+Result<LongFace> keep_face(const std::string& path) {
+  auto units = media::store_face(path);
+  if (!units || !*units) return LongFace();  // what there is to say is told when it is read
+  return LongFace{std::move(**units), nullptr};
+}
+
+// An intact stream, a text, or a container.
 Result<LongFace> read_long_face(const MuxOptions& options) {
   const bool whole = in_segments(options.output) || options.mux.systems ||
                      options.mux.shared_seconds > 0 || !options.preview.empty();
   if (whole) return LongFace();
   if (FapFile::can_read(options.face)) return code_long_text(options);
+  if (is_on_disk(options.face) && !PlaneFile::can_read(options.face)) {
+    return keep_face(options.face);
+  }
   if (!PlaneFile::can_read(options.face)) return LongFace();
   bool faces = false;
   std::vector<std::string> warnings;
@@ -117,7 +134,7 @@ Result<LongFace> read_long_face(const MuxOptions& options) {
   };
   const auto read = PlaneFile(options.face).for_each(note, &warnings);
   if (!read || !warnings.empty() || !faces) return LongFace();
-  return LongFace{options.face, nullptr};
+  return read_long_stream(options.face);
 }
 
 // A face out of a container keeps its times, which its planes alone would not tell.
@@ -136,11 +153,16 @@ Result<fba::AccessUnits> read_units(const MuxOptions& options, bool& coded) {
   return access_units(*face, options.stream);
 }
 
+// Coded sound that is read while it is written.
+bool keeps_sound(const MuxOptions& options) {
+  return !options.audio.empty() && options.sound.codec == "copy" && options.preview.empty();
+}
+
 // Samples only of what is needed twice and cannot be read twice, a pipe: a file is decoded while it
 // is written, with both of its channels.
 Result<speech::SoundInput> sound_of(const MuxOptions& options) {
   speech::SoundInput sound;
-  if (options.audio.empty()) return sound;
+  if (options.audio.empty() || keeps_sound(options)) return sound;
   if (options.sound.codec == "copy") {
     Result<media::EncodedAudio> coded = media::read_encoded_audio(options.audio);
     if (!coded) return coded.error().in_file(options.audio);
@@ -163,6 +185,23 @@ Result<fba::AccessUnits> read_whole_face(const MuxOptions& options) {
   const bool one_point = options.stream.intra_seconds == 0;  // is asked for
   if (!units || !in_segments(options.output) || one_point) return units;
   return for_segments(std::move(*units), coded, options);
+}
+
+// Into one of them, to which the input refers.
+Result<void> give_face(const MuxOptions& options, LongFace& long_face, fba::AccessUnits& units,
+                       media::MuxInput& input) {
+  Result<LongFace> streamed = read_long_face(options);
+  if (!streamed) return streamed.error().in_file(options.face);
+  long_face = std::move(*streamed);
+  if (long_face.units) {
+    input.face_units = &*long_face.units;
+    return {};
+  }
+  Result<fba::AccessUnits> whole = read_whole_face(options);
+  if (!whole) return whole.error().in_file(options.face);
+  units = std::move(*whole);
+  input.face = &units;
+  return {};
 }
 
 // A language or a person of --track: files, and what tells them apart.
@@ -212,9 +251,10 @@ Result<MuxTrack> read_mux_track(const std::string& text) {
 
 // What a part of the file is written from; the input refers to it.
 struct MuxPart {
-  fba::AccessUnits face;
+  LongFace long_face;
+  fba::AccessUnits face;  // in place of it
   std::string audio;
-  std::optional<media::EncodedAudio> coded;
+  std::optional<media::StoredAudio> coded;
   std::vector<media::TextTrack> texts;
 };
 
@@ -224,20 +264,20 @@ Result<void> read_part(const MuxTrack& track, const MuxOptions& options, MuxPart
   if (!track.face.empty()) {
     MuxOptions one = options;
     one.face = track.face;
-    auto units = read_whole_face(one);
-    if (!units) return units.error().in_file(track.face);
-    part.face = std::move(*units);
-    input.face = &part.face;
+    if (auto read = give_face(one, part.long_face, part.face, input); !read) return read;
   }
   if (!track.audio.empty() && options.sound.codec == "copy") {
-    auto coded = media::read_encoded_audio(track.audio);
+    auto coded = media::StoredAudio::read(track.audio);
     if (!coded) return coded.error().in_file(track.audio);
-    input.encoded = &part.coded.emplace(std::move(*coded));
+    input.stored = &part.coded.emplace(std::move(*coded));
   } else if (!track.audio.empty()) {
     part.audio = track.audio;
     input.audio_file = &part.audio;
   }
-  if (!track.words.empty()) {
+  if (!track.words.empty() && !media::takes_text(options.output)) {
+    warn(track.words + ": " + extension_of(options.output) +
+         " files carry no words; .mp4, .mkv and .m3u8 do");
+  } else if (!track.words.empty()) {
     speech::ScriptInput reading;
     if (!track.labels.language.empty()) reading.language = track.labels.language;
     const auto script = speech::read_script(track.words, reading, terminal_log());
@@ -275,32 +315,26 @@ Result<int> run(MuxOptions options) {
     if (!options.preview.empty()) return usage_error("--preview is for files of one face");
     return write_tracks(options);
   }
-  const Result<LongFace> face = read_long_face(options);
-  if (!face) return face.error().in_file(options.face);
-  std::optional<fba::UnitReader> reader;
+  media::MuxInput input;
+  LongFace long_face;
   fba::AccessUnits units;
-  if (face->stream.empty()) {
-    Result<fba::AccessUnits> whole = read_whole_face(options);
-    if (!whole) return whole.error().in_file(options.face);
-    units = std::move(*whole);
-  } else {
-    Result<fba::UnitReader> opened = open_units(face->stream);
-    if (!opened) return opened.error().in_file(options.face);
-    reader = std::move(*opened);
-  }
+  if (auto read = give_face(options, long_face, units, input); !read) return read.error();
   const Result<speech::SoundInput> sound = sound_of(options);
   if (!sound) return sound.error();
-  media::MuxInput input;
-  input.face_units = reader ? &*reader : nullptr;
-  input.face = reader ? nullptr : &units;
   sound->give_to(input);
+  std::optional<media::StoredAudio> stored;
+  if (keeps_sound(options)) {
+    auto coded = media::StoredAudio::read(options.audio);
+    if (!coded) return coded.error().in_file(options.audio);
+    input.stored = &stored.emplace(std::move(*coded));
+  }
   std::vector<media::TextTrack> texts;  // go with a face that is spoken to them
   if (!options.mux.systems && media::takes_text(options.output)) {
     texts = speech::carried_tracks(options.face, terminal_log());
     if (shows_captions(options.output, options.subtitles)) speech::add_captions(texts);
     input.texts = &texts;
   }
-  const bool from_file = !options.audio.empty() && !sound->coded && !sound->samples;
+  const bool from_file = !options.audio.empty() && !sound->coded && !sound->samples && !stored;
   if (from_file) input.audio_file = &options.audio;
   options.mux.audio = audio_settings(options.sound, options.output);
   options.mux.text_track = media::TextTrackType::metadata;

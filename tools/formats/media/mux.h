@@ -21,6 +21,7 @@
 #include "fap/result.h"
 #include "tools/formats/media/encoded_audio.h"
 #include "tools/formats/media/pcm.h"
+#include "tools/formats/media/stored.h"
 #include "tools/formats/media/text_track.h"
 #include "tools/formats/media/track_labels.h"
 #include "tools/formats/media/video.h"
@@ -38,8 +39,11 @@ struct MuxInput {
   /// A sound file (see AudioReader) that is decoded and coded while it is written, so that memory
   /// does not grow with it; two channels stay two, more become two; nullptr: none.
   const std::string* audio_file = nullptr;
-  /// Coded sound to be copied, packet by packet; nullptr: none. One of these three at most.
+  /// Coded sound to be copied, packet by packet; nullptr: none.
   const EncodedAudio* encoded = nullptr;
+  /// The same, read while it is written, so that memory does not grow with it (but in Systems
+  /// presentations). nullptr: none. One of these four at most.
+  StoredAudio* stored = nullptr;
   /// Video for players without FBA support; nullptr: none. It becomes the first track, and the face
   /// track is then disabled by default. In .mp4, .mkv and .webm (VP9), not in Systems
   /// presentations.

@@ -1,6 +1,7 @@
 // Coded sound out of a file, as it is.
 #include <algorithm>
 #include <cstdlib>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -8,6 +9,7 @@
 #include "tools/formats/media/detail/segments/presentation.h"
 #include "tools/formats/media/detail/sound/audio_decoder.h"
 #include "tools/formats/media/detail/sound/audio_headers.h"
+#include "tools/formats/media/detail/sound/coded_packets.h"
 #include "tools/formats/media/detail/tracks/face_track.h"
 
 namespace animeme::media {
@@ -22,10 +24,13 @@ struct FreeFilter {
   void operator()(AVBSFContext* filter) const { av_bsf_free(&filter); }
 };
 
+using GivePacket = std::function<Result<void>(AudioPacket)>;
+
 // Puts the packets of one stream on the time line of read_audio().
 class PacketCollector {
  public:
-  PacketCollector(const Input& input, const AVStream& stream) : input_(input), stream_(stream) {}
+  PacketCollector(const Input& input, const AVStream& stream, const GivePacket& give)
+      : input_(input), stream_(stream), give_(give) {}
 
   Result<void> open();
   Result<void> add(AVPacket* packet);  // nullptr: no more
@@ -39,9 +44,13 @@ class PacketCollector {
 
   const Input& input_;
   const AVStream& stream_;
+  const GivePacket& give_;
   std::unique_ptr<AVBSFContext, FreeFilter> filter_;  // takes ADTS headers off
   av::Packet out_{av_packet_alloc()};
-  EncodedAudio audio_;
+  EncodedAudio audio_;               // without packets
+  std::optional<AudioPacket> last_;  // not handed over yet
+  std::int64_t first_time_ = 0, first_duration_ = 0;
+  bool constant_ = true;                // durations, but that of the last packet
   std::optional<std::int64_t> origin_;  // stream time of time 0, samples
   std::int64_t next_ = 0;
   std::size_t bytes_ = 0;
@@ -131,13 +140,20 @@ Result<void> PacketCollector::take(const AVPacket& packet) {
   if (packet.data == nullptr || packet.size <= 0) return {};
   const std::int64_t samples = samples_of(packet);
   const std::int64_t time = place(packet);
-  const bool ascends = audio_.packets.empty() || time > audio_.packets.back().time;
+  const bool ascends = !last_ || time > last_->time;
   if (samples <= 0 || !ascends) return {};  // damaged
   bytes_ += std::size_t(packet.size);
   if (bytes_ > kMostBytes) {
     return make_error(Code::out_of_range, "the sound is larger than 1 GB; cut the file");
   }
-  audio_.packets.push_back({{packet.data, packet.data + packet.size}, time, samples});
+  if (last_) {
+    constant_ = constant_ && last_->duration == first_duration_;
+    if (auto given = give_(std::move(*last_)); !given) return given;
+  } else {
+    first_time_ = time;
+    first_duration_ = samples;
+  }
+  last_ = AudioPacket{{packet.data, packet.data + packet.size}, time, samples};
   next_ = time + samples;
   return {};
 }
@@ -152,32 +168,28 @@ void PacketCollector::set_length() {
 }
 
 Result<EncodedAudio> PacketCollector::finish() {
-  if (audio_.packets.empty() || audio_.format.config.empty() || next_ <= 0) {
+  if (!last_ || audio_.format.config.empty() || next_ <= 0) {
     return make_error(Code::syntax, "nothing in the audio track can be read");
   }
   set_length();
   // The last packet of a fragmented file is said to be whole.
-  AudioPacket& last = audio_.packets.back();
-  if (audio_.length > last.time && audio_.length < last.time + last.duration) {
-    last.duration = audio_.length - last.time;
+  if (audio_.length > last_->time && audio_.length < last_->time + last_->duration) {
+    last_->duration = audio_.length - last_->time;
   }
   AudioFormat& format = audio_.format;
-  format.priming =
-      int(std::clamp<std::int64_t>(-audio_.packets.front().time, 0, format.sample_rate));
-  if (format.codec == AudioCodec::opus) {
-    const std::int64_t frame = audio_.packets.front().duration;
-    const bool constant = std::all_of(audio_.packets.begin(), audio_.packets.end() - 1,
-                                      [&](const AudioPacket& p) { return p.duration == frame; });
-    if (constant && audio_.packets.back().duration <= frame) format.frame_samples = int(frame);
+  format.priming = int(std::clamp<std::int64_t>(-first_time_, 0, format.sample_rate));
+  if (format.codec == AudioCodec::opus && constant_ && last_->duration <= first_duration_) {
+    format.frame_samples = int(first_duration_);
   }
+  if (auto given = give_(std::move(*last_)); !given) return given.error();
   return std::move(audio_);
 }
 
-Result<EncodedAudio> read_track(Input& input) {
+Result<EncodedAudio> read_track(Input& input, const GivePacket& give) {
   FaceTracks().update(*input.context());
   Result<AVStream*> stream = choose_audio(input);
   if (!stream) return stream.error();
-  PacketCollector sound(input, **stream);
+  PacketCollector sound(input, **stream, give);
   if (auto opened = sound.open(); !opened) return opened.error();
   Result<int> read =
       read_packets(input, (*stream)->index, [&](AVPacket& packet) { return sound.add(&packet); });
@@ -187,23 +199,40 @@ Result<EncodedAudio> read_track(Input& input) {
 }
 
 template <class Source>
-Result<EncodedAudio> read_from(const Source& source) {
+Result<EncodedAudio> give_from(const Source& source, const GivePacket& give) {
   const av::LogCapture log;
   Result<std::unique_ptr<Input>> input = Input::open(source, nullptr);
   if (!input) return input.error();
-  return read_track(**input);
+  return read_track(**input, give);
+}
+
+// With its packets.
+template <class Read>
+Result<EncodedAudio> read_whole(const Read& read) {
+  std::vector<AudioPacket> packets;
+  Result<EncodedAudio> audio = read([&packets](AudioPacket packet) -> Result<void> {
+    packets.push_back(std::move(packet));
+    return {};
+  });
+  if (audio) audio->packets = std::move(packets);
+  return audio;
 }
 
 }  // namespace
 
-Result<EncodedAudio> read_encoded_audio(const std::string& path) {
+Result<EncodedAudio> read_coded_packets(const std::string& path, const GivePacket& give) {
   return av::guarded(path, [&] {
-    return read_sound_of(path, [](const auto& source) { return read_from(source); });
+    return read_sound_of(path, [&](const auto& source) { return give_from(source, give); });
   });
 }
 
+Result<EncodedAudio> read_encoded_audio(const std::string& path) {
+  return read_whole([&](const GivePacket& give) { return read_coded_packets(path, give); });
+}
+
 Result<EncodedAudio> read_encoded_audio(std::span<const std::uint8_t> file) {
-  return av::guarded([&] { return read_from(file); });
+  return read_whole(
+      [&](const GivePacket& give) { return av::guarded([&] { return give_from(file, give); }); });
 }
 
 }  // namespace animeme::media

@@ -40,25 +40,38 @@ Result<void> SoundSource::start(int sample_rate, const AudioSettings& settings, 
 double SoundSource::seconds() const {
   if (pcm_ != nullptr) return pcm_->duration();
   if (reader_) return reader_->told_seconds();
+  if (stored_ != nullptr) return double(length_) / format().sample_rate;
   return double(audio_->packets.back().time) / audio_->format.sample_rate;
 }
 
 double SoundSource::seconds_so_far() const {
-  if (audio_ == nullptr) {
+  if (!copies()) {
     if (!reader_) return double(pushed_) / pcm_->sample_rate;
     return double(pushed_) / reader_->channels() / reader_->sample_rate();
   }
-  if (at_ == 0) return 0;
-  const AudioPacket& last = audio_->packets[at_ - 1];
-  const std::int64_t end = last.time + last.duration;
-  return double(audio_->length > 0 ? std::min(end, audio_->length) : end) /
-         audio_->format.sample_rate;
+  const std::int64_t end = copied_until_;
+  return double(length_ > 0 ? std::min(end, length_) : end) / format().sample_rate;
+}
+
+const AudioFormat& SoundSource::format() const {
+  if (stored_ != nullptr) return stored_->format();
+  return audio_ != nullptr ? audio_->format : encoder_->format();
 }
 
 SoundSource SoundSource::copying(const EncodedAudio& audio) {
   SoundSource source;
   source.audio_ = &audio;
+  source.length_ = audio.length;
   source.bit_rate_ = mean_bit_rate(audio);
+  return source;
+}
+
+Result<SoundSource> SoundSource::copying(StoredAudio& audio) {
+  if (auto begun = audio.rewind(); !begun) return begun.error();
+  SoundSource source;
+  source.stored_ = &audio;
+  source.length_ = audio.length();
+  source.bit_rate_ = audio.bit_rate();
   return source;
 }
 
@@ -90,20 +103,26 @@ Result<void> SoundSource::refill() {
 }
 
 // What lies behind the end of the sound is left out, and the last packet ends there.
-const AudioPacket* SoundSource::next_copy() {
-  if (at_ == audio_->packets.size()) return nullptr;
-  const AudioPacket& packet = audio_->packets[at_];
-  const std::int64_t end = audio_->length;
-  if (end > 0 && packet.time >= end) return nullptr;
+Result<const AudioPacket*> SoundSource::next_copy() {
+  const AudioPacket* packet = nullptr;
+  if (stored_ != nullptr) {
+    const Result<const AudioPacket*> read = stored_->next();
+    if (!read) return read;
+    packet = *read;
+  } else if (at_ < audio_->packets.size()) {
+    packet = &audio_->packets[at_];
+  }
+  if (packet == nullptr || (length_ > 0 && packet->time >= length_)) return nullptr;
   ++at_;
-  if (end <= 0 || packet.time + packet.duration <= end) return &packet;
-  coded_ = {packet};
-  coded_.front().duration = end - packet.time;
+  copied_until_ = packet->time + packet->duration;
+  if (length_ <= 0 || copied_until_ <= length_) return packet;
+  coded_ = {*packet};
+  coded_.front().duration = length_ - packet->time;
   return &coded_.front();
 }
 
 Result<const AudioPacket*> SoundSource::next() {
-  if (audio_ != nullptr) return next_copy();
+  if (copies()) return next_copy();
   if (at_ == coded_.size()) {
     Result<void> filled = refill();
     if (!filled) return filled.error();

@@ -9,6 +9,7 @@
 
 #include "tools/formats/media/audio.h"
 #include "tools/formats/media/encoded_audio.h"
+#include "tools/formats/media/stored.h"
 
 namespace animeme::media {
 
@@ -23,8 +24,10 @@ class SoundSource {
                                       std::vector<std::string>* warnings);
   /// Gives out the packets of `audio`, which must outlive the source.
   static SoundSource copying(const EncodedAudio& audio);
+  /// The same, read meanwhile from its first packet on. Error: io.
+  static Result<SoundSource> copying(StoredAudio& audio);
 
-  const AudioFormat& format() const { return audio_ ? audio_->format : encoder_->format(); }
+  const AudioFormat& format() const;
   /// Bits a second: of the packets, or the encoder's target.
   std::int64_t bit_rate() const { return bit_rate_; }
   /// Length of the sound, or the length in the header of the file.
@@ -40,9 +43,13 @@ class SoundSource {
   Result<void> start(int sample_rate, const AudioSettings& settings, int channels);
   Result<std::span<const float>> more_samples();
   Result<void> refill();
-  const AudioPacket* next_copy();
+  Result<const AudioPacket*> next_copy();
+  bool copies() const { return audio_ != nullptr || stored_ != nullptr; }
 
   const EncodedAudio* audio_ = nullptr;
+  StoredAudio* stored_ = nullptr;
+  std::int64_t length_ = 0;        // of what is copied; 0: not known
+  std::int64_t copied_until_ = 0;  // samples
   const Pcm* pcm_ = nullptr;
   std::optional<AudioReader> reader_;
   std::string path_;  // of reader_

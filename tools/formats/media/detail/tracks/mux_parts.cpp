@@ -97,7 +97,7 @@ Result<void> check_further(const MuxInput& input, const MuxOptions& options) {
 
 Result<void> check_input(const MuxInput& input, const MuxOptions& options) {
   const int sounds = int(input.audio != nullptr) + int(input.encoded != nullptr) +
-                     int(input.audio_file != nullptr);
+                     int(input.audio_file != nullptr) + int(input.stored != nullptr);
   const bool text = input.texts != nullptr && !input.texts->empty() && !input.labels.empty();
   if (!input.has_face() && sounds == 0 && input.video == nullptr && !text) {
     return invalid("nothing to write: neither a face nor sound nor pictures were given");
@@ -196,6 +196,11 @@ void set_fragment_options(const char* cut, double seconds, av::Options& header) 
 Result<std::optional<SoundSource>> open_sound(const MuxInput& input, const MuxOptions& options) {
   std::optional<SoundSource> sound;
   if (input.encoded != nullptr) sound.emplace(SoundSource::copying(*input.encoded));
+  if (input.stored != nullptr) {
+    Result<SoundSource> opened = SoundSource::copying(*input.stored);
+    if (!opened) return opened.error();
+    sound.emplace(std::move(*opened));
+  }
   if (input.audio != nullptr) {
     Result<SoundSource> opened = SoundSource::coding(*input.audio, options.audio);
     if (!opened) return opened.error();
