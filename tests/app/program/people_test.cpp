@@ -113,6 +113,46 @@ TEST_P(Dialogue, EachHasAFaceThatListens) {
 INSTANTIATE_TEST_SUITE_P(Files, Dialogue, testing::Values(".mp4", ".mkv"),
                          [](const auto& one) { return std::string(one.param + 1); });
 
+TEST(People, KeepTheirPerformance) {
+  const TempDir dir;
+  spill(dir / "talk.vtt", kDialogue);
+  // One raises the inner brow, the other one the outer.
+  const auto spill_face = [&](const char* name, int fap) {
+    fap::Sequence clip{{25, 1}, {}, name};
+    for (int i = 0; i < 150; ++i) {
+      fap::Frame& frame = clip.frames.emplace_back();
+      frame.number = i;
+      frame.set(fap, 120);
+    }
+    spill(dir / name, fap::write_text(clip));
+  };
+  spill_face("ann.fap", 31);
+  spill_face("bob.fap", 35);
+  succeeds({"mux", "--track", "speaker=Ann,face=" + (dir / "ann.fap"), "--track",
+            "speaker=Bob,face=" + (dir / "bob.fap"), "-o", dir / "film.mp4"});
+  const auto expect_brows = [&](const std::string& film, const char* who, int inner, int outer) {
+    const fap::Sequence clip = face_of(dir, dir / film, who);
+    EXPECT_NEAR(mean_of(clip, 31, 1, 5), inner, 3) << film << " " << who;
+    EXPECT_NEAR(mean_of(clip, 35, 1, 5), outer, 3) << film << " " << who;
+  };
+  const std::vector<std::string> spoken = {"speak", "--script", dir / "talk.vtt",
+                                           "--fit", "0.8-1.3",  "--no-idle-motion"};
+  std::vector<std::string> by_name = spoken, by_file = spoken, unnamed = spoken;
+  for (const auto* one : {"--cast", "all", "--over"}) by_name.emplace_back(one);
+  by_name.insert(by_name.end(), {dir / "film.mp4", "-o", dir / "a.mp4"});
+  succeeds(by_name);
+  expect_brows("a.mp4", "Ann", 120, 0);
+  expect_brows("a.mp4", "Bob", 0, 120);
+  by_file.insert(by_file.end(),
+                 {"--cast", "all", "--cast", "Bob,over=" + (dir / "ann.fap"), "-o", dir / "b.mp4"});
+  succeeds(by_file);
+  expect_brows("b.mp4", "Bob", 120, 0);
+  unnamed.insert(unnamed.end(), {"--cast", "all", "--over", dir / "ann.fap", "-o", dir / "c.mp4"});
+  const auto refused = animeme(unnamed);
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_THAT(refused.err, HasSubstr("Ann,over=ann.fba"));
+}
+
 TEST(People, TurnsTellWhoSpeaks) {
   const TempDir dir;
   spill(dir / "talk.tsv",

@@ -38,7 +38,7 @@ constexpr std::string_view kVariants[] = {"", "+f3", "+m7", "+f2", "+m4", "+f4"}
 // Who plays, and what tells them apart. Empty: as for all.
 struct CastMember {
   std::string name;
-  std::string language, model, audio, tts, mood;
+  std::string language, model, audio, tts, mood, over;
   std::optional<int> pitch, speed;
 };
 
@@ -79,6 +79,8 @@ Result<CastMember> parse_cast_member(const std::string& text) {
       member.audio = value;
     } else if (key == "tts") {
       member.tts = value;
+    } else if (key == "over") {
+      member.over = value;
     } else if (key == "mood") {
       member.mood = value;
       if (std::string problem = problem_of<dam::read_mood>(value); !problem.empty()) {
@@ -90,7 +92,7 @@ Result<CastMember> parse_cast_member(const std::string& text) {
       done = number(80, 450, member.speed);
     } else {
       return wrong("there is no " + key +
-                   "; there are lang, model, audio, tts, mood, pitch, speed");
+                   "; there are lang, model, audio, tts, mood, over, pitch, speed");
     }
     if (!done) return done.error();
   }
@@ -173,6 +175,48 @@ Result<std::vector<CastMember>> cast_of(const SpeakOptions& options,
     }
   }
   return cast;
+}
+
+// Who has a named face in the file of --over. Errors: nobody.
+Result<std::vector<std::string>> people_in_performance(const std::string& path) {
+  const auto about = media::probe(path);
+  std::vector<std::string> names;
+  for (const media::TrackInfo& track : about ? about->tracks : std::vector<media::TrackInfo>()) {
+    const bool named = track.kind == media::TrackKind::face && !track.labels.speaker.empty();
+    if (named) names.push_back(track.labels.speaker);
+  }
+  if (!names.empty()) return names;
+  return make_error(Code::not_found,
+                    "no face in it has a name; give each person a performance, --cast "
+                    "Ann,over=ann.fba")
+      .in_file(path);
+}
+
+// The face that is kept under the lips of each: a file of its own, or the one of its name in the
+// file of --over.
+Result<void> give_performances(const SpeakOptions& options, std::vector<Person>& people) {
+  std::vector<std::string> named;
+  if (!options.over.path.empty()) {
+    auto known = people_in_performance(options.over.path);
+    if (!known) return known.error();
+    named = std::move(*known);
+  }
+  for (Person& person : people) {
+    SpeakOptions& own = person.options;
+    const CastMember& member = person.member;
+    const bool own_file = !member.over.empty();
+    if (own_file) own.over.path = member.over;
+    if (own.over.path.empty()) continue;
+    if (!own_file && std::find(named.begin(), named.end(), member.name) == named.end()) {
+      say(options.over.path + " has no face of " + member.name + ", who gets idle motion");
+      own.over.path.clear();
+      continue;
+    }
+    std::optional<media::TrackScope> scope;
+    if (!own_file) scope.emplace(media::TrackLabels{.speaker = member.name});
+    if (auto done = read_over(own.over, own.performance, own.keep); !done) return done;
+  }
+  return {};
 }
 
 // The options of speech for a person.
@@ -406,7 +450,7 @@ Json people_json(const SpeakOptions& options, const std::vector<Person>& people)
 void add_cast_options(OptionTable& cli, SpeakOptions& options) {
   cli.add("--cast", options.cast,
           "A face for each speaker of the script, in one file: all, or NAME with lang=, model=, "
-          "audio=, tts=, mood=, pitch=, speed= (Ann,lang=en+f3); may be repeated")
+          "audio=, tts=, mood=, over=, pitch=, speed= (Ann,lang=en+f3); may be repeated")
       ->value("NAME")
       ->check(problem_of<parse_cast_member>)
       ->one_at_a_time();
@@ -434,9 +478,11 @@ std::string problem_with_cast(const SpeakOptions& options) {
   if (!spoken.audio.empty() && !std::filesystem::is_regular_file(spoken.audio, unknown)) {
     return "with --cast the recording is read more than once; give --audio a file";
   }
-  if (!options.over.path.empty()) return "--over is for one face; choose whose with --speaker";
   if (!options.preview.empty()) return "--preview shows one face; render --people shows several";
-  if (!options.save_script.empty()) return "--save-script is for one face; demux reads the words";
+  if (!options.save_script.empty()) {
+    return "--save-script is for one face; demux --track speaker=Ann -o ann.TextGrid reads what "
+           "each says";
+  }
   for (const std::string& output : options.outputs) {
     const std::string extension = extension_of(output);
     const bool several =
@@ -456,6 +502,7 @@ Result<int> speak_people(const SpeakOptions& options) {
   if (!cast) return cast.error();
   std::vector<Person> people;
   for (const CastMember& member : *cast) people.push_back({.member = member, .options = options});
+  if (auto done = give_performances(options, people); !done) return done.error();
   if (auto done = hear_people(options, *turns, people); !done) return done.error();
   const auto sound = sound_of_all(options, people);
   if (!sound) return sound.error();
