@@ -487,7 +487,7 @@ TEST(Check, JsonHasFeaturesAndVerdicts) {
   EXPECT_EQ(all["cases"], all["results"].size());
   EXPECT_EQ(all["verdicts"]["exact"], all["cases"]);
   EXPECT_GT(all["features"]["range_flags.1010"]["cases"], 1);
-  EXPECT_EQ(all["features"]["header.sequence"]["cases"], 3);
+  EXPECT_EQ(all["features"]["header.sequence"]["cases"], 4);
   EXPECT_EQ(all["features"]["damage.dct"]["cases"], 0);
 }
 

@@ -187,7 +187,7 @@ TEST_F(PageElsewhere, IsABrowserSource) {
           std::string(kObsStyle) + "')",
       false);
   ASSERT_TRUE(wait_for(browser, "animeme.state === 'live' && animeme.shown > 20 && animeme.head",
-                       60, false));
+                       150, false));
   EXPECT_EQ(browser.evaluate("[audio.muted, audio.paused, animeme.blocked]", false),
             Json({false, false, false}))
       << "it sounds by itself";

@@ -71,7 +71,9 @@ Result<StoredAudio> StoredAudio::read(const std::string& path) {
   if (!head) return head.error();
   if (auto done = store->rewind(); !done) return done.error();
   auto impl = std::make_unique<Impl>(Impl{std::move(*head), std::move(*store), 0, {}});
-  impl->bit_rate = std::int64_t(bytes * 8 * impl->head.format.sample_rate / samples);
+  if (samples > 0) {
+    impl->bit_rate = std::int64_t(bytes * 8 * impl->head.format.sample_rate / samples);
+  }
   return StoredAudio(std::move(impl));
 }
 
