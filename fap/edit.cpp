@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "fap/detail/symmetry.h"
 #include "fap/tables.h"
 
 namespace animeme::fap {
@@ -44,8 +45,6 @@ void scale_intensities(Expression& expression, double factor) {
     *value = std::clamp(rounded(*value * factor), 0, kMostIntensity);
   }
 }
-
-bool is_lateral(Motion motion) { return motion == Motion::left || motion == Motion::right; }
 
 // `weight` of one value and the rest of another.
 std::int32_t mixed(std::int32_t a, std::int32_t b, double weight) {
@@ -131,13 +130,9 @@ void mirror(Sequence& clip) {
   for (Frame& frame : clip.frames) {
     const Frame before = frame;
     for (int fap = kFirstLowLevel; fap <= kFapCount; ++fap) {
-      const FapInfo& own = info(fap);
-      const int source = own.mirror != 0 ? own.mirror : fap;
-      // Sides move outwards both, except for what turns one way together.
-      const bool turns = is_lateral(own.motion) && info(source).motion == own.motion;
-      const std::int32_t value = before.value[std::size_t(source)];
-      frame.value[std::size_t(fap)] = turns ? -value : value;
-      frame.mask[std::size_t(fap)] = before.mask[std::size_t(source)];
+      const internal::MirrorImage image = internal::mirror_image(fap);
+      frame.value[std::size_t(fap)] = image.sign * before.value[std::size_t(image.fap)];
+      frame.mask[std::size_t(fap)] = before.mask[std::size_t(image.fap)];
     }
   }
 }

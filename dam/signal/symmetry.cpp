@@ -1,6 +1,7 @@
 #include "dam/signal/symmetry.h"
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 
 #include "dam/signal/fap_signal.h"
@@ -24,14 +25,22 @@ std::string other_side(const std::string& name) {
 }  // namespace
 
 std::vector<MirroredChannel> mirrored_channels(std::span<const std::string> names) {
+  // Live heads ask for it with each piece of a stream: each name is parsed once.
+  std::vector<int> faps;
+  std::array<std::size_t, fap::kFapCount + 1> channel_of{};
+  channel_of.fill(names.size());
+  for (const std::string& name : names) {
+    faps.push_back(fap_of_channel(name));
+    std::size_t& first = channel_of[std::size_t(faps.back())];
+    if (first == names.size()) first = faps.size() - 1;
+  }
   std::vector<MirroredChannel> result;
   for (std::size_t own = 0; own < names.size(); ++own) {
     MirroredChannel mirrored{own, 1};
-    if (const int fap = fap_of_channel(names[own]); fap > 0) {
-      const fap::internal::MirrorImage image = fap::internal::mirror_image(fap);
-      const auto same = [&](const std::string& n) { return fap_of_channel(n) == image.fap; };
-      const auto found = std::find_if(names.begin(), names.end(), same);
-      if (found != names.end()) mirrored = {std::size_t(found - names.begin()), double(image.sign)};
+    if (faps[own] > 0) {
+      const fap::internal::MirrorImage image = fap::internal::mirror_image(faps[own]);
+      const std::size_t other = channel_of[std::size_t(image.fap)];
+      if (other < names.size()) mirrored = {other, double(image.sign)};
     } else {
       const auto found = std::find(names.begin(), names.end(), other_side(names[own]));
       if (found != names.end()) mirrored.channel = std::size_t(found - names.begin());

@@ -15,8 +15,9 @@ struct MirroredChannel {
   double sign = 1;          ///< -1: what points to one side of the world changes its direction
 };
 
-/// One of each name. FAPs ("fap12_...") by the table of the standard; ARKit's shapes by "Left" and
-/// "Right" in their names (or "_L" and "_R" at the end). Any other channel is its own mirror image.
+/// One of each name. FAPs ("fap12_...") by the table of the standard; ARKit's shapes and all other
+/// names by "Left" and "Right", or "_L" and "_R", at their end. A channel without another side is
+/// its own mirror image.
 std::vector<MirroredChannel> mirrored_channels(std::span<const std::string> names);
 
 }  // namespace animeme::dam

@@ -188,9 +188,7 @@ std::string summary(const media::MuxInput& input, const media::MuxOptions& optio
   }
   if (sound_seconds > 0) {
     text += ", sound " + seconds_text(sound_seconds);
-    const media::AudioFormat* coded = input.stored != nullptr    ? &input.stored->format()
-                                      : input.encoded != nullptr ? &input.encoded->format
-                                                                 : nullptr;
+    const media::AudioFormat* coded = input.coded_format();
     text += coded == nullptr || !copied ? std::string(" as ") + name_of(options.audio.codec)
                                         : std::string(" copied (") + name_of(coded->codec) + ")";
   }

@@ -122,10 +122,9 @@ Result<LongFace> read_long_face(const MuxOptions& options) {
                      options.mux.shared_seconds > 0 || !options.preview.empty();
   if (whole) return LongFace();
   if (FapFile::can_read(options.face)) return code_long_text(options);
-  if (is_on_disk(options.face) && !PlaneFile::can_read(options.face)) {
-    return keep_face(options.face);
+  if (!PlaneFile::can_read(options.face)) {
+    return is_on_disk(options.face) ? keep_face(options.face) : LongFace();
   }
-  if (!PlaneFile::can_read(options.face)) return LongFace();
   bool faces = false;
   std::vector<std::string> warnings;
   const auto note = [&faces](const fba::Plane& plane) {

@@ -70,8 +70,7 @@ Error unsupported(std::string message) { return make_error(Code::unsupported, st
 Result<void> check_program_map(const MuxInput& input) {
   std::size_t faces = 0, sounds = 0, labelled = 0;
   const auto count = [&](const MuxInput& part) {
-    const bool sound = part.audio != nullptr || part.audio_file != nullptr ||
-                       part.encoded != nullptr || part.stored != nullptr;
+    const bool sound = part.sounds() > 0;
     faces += part.has_face() ? 1 : 0;
     sounds += sound ? 1 : 0;
     if (!part.labels.empty()) labelled += (part.has_face() ? 1 : 0) + (sound ? 1 : 0);
@@ -124,11 +123,9 @@ Result<void> check_type(const FileType& type, const MuxInput& input, const MuxOp
     return unsupported("a " + name +
                        " file can only contain sound; use .mp4, .mkv or .ts for a face");
   }
-  const AudioCodec codec = input.encoded != nullptr  ? input.encoded->format.codec
-                           : input.stored != nullptr ? input.stored->format().codec
-                                                     : options.audio.codec;
-  const bool sound = input.audio != nullptr || input.audio_file != nullptr ||
-                     input.encoded != nullptr || input.stored != nullptr;
+  const AudioFormat* coded = input.coded_format();
+  const AudioCodec codec = coded != nullptr ? coded->codec : options.audio.codec;
+  const bool sound = input.sounds() > 0;
   if (sound && !type.takes(codec)) {
     return unsupported("a " + name + " file does not support " + name_of(codec) + "; " +
                        (type.opus ? "code the sound as opus" : "code the sound as aac") +
@@ -394,6 +391,11 @@ Result<MuxResult> guarded_write(const std::string& path, const FileType& type,
 }
 
 }  // namespace
+
+const AudioFormat* MuxInput::coded_format() const {
+  if (stored != nullptr) return &stored->format();
+  return encoded != nullptr ? &encoded->format : nullptr;
+}
 
 bool takes_text(const std::string& path) {
   const FileType* type = type_of(path);

@@ -65,6 +65,13 @@ struct MuxInput {
   std::uint8_t visual_profile = 0;
 
   bool has_face() const { return face != nullptr || face_units != nullptr; }  ///< either
+  /// Members that give a sound; at most one may.
+  int sounds() const {
+    return int(audio != nullptr) + int(audio_file != nullptr) + int(encoded != nullptr) +
+           int(stored != nullptr);
+  }
+  /// Of coded sound that is copied; null: there is none.
+  const AudioFormat* coded_format() const;
 };
 
 /// Type of the face track in mp4, HLS and DASH.

@@ -96,8 +96,7 @@ Result<void> check_further(const MuxInput& input, const MuxOptions& options) {
 }  // namespace
 
 Result<void> check_input(const MuxInput& input, const MuxOptions& options) {
-  const int sounds = int(input.audio != nullptr) + int(input.encoded != nullptr) +
-                     int(input.audio_file != nullptr) + int(input.stored != nullptr);
+  const int sounds = input.sounds();
   const bool text = input.texts != nullptr && !input.texts->empty() && !input.labels.empty();
   if (!input.has_face() && sounds == 0 && input.video == nullptr && !text) {
     return invalid("nothing to write: neither a face nor sound nor pictures were given");
