@@ -199,8 +199,10 @@ bool Repairer::extend(std::size_t index, std::vector<Plane>& planes, std::option
   std::vector<Plane> all;
   std::optional<Error> error = decode_piece(whole, all);
   if (error) {
+    // The plane across the start code is one if another follows it, or the stream is cut off.
     const auto size = std::int64_t(piece.bytes.size()) * 8;
-    const bool further = all.size() > 1 && all[all.size() - 2].bit_end > size;
+    const std::size_t sure = all.size() - (all.empty() || behind == pieces_.size() ? 0 : 1);
+    const bool further = sure > 0 && all[sure - 1].bit_end > size;
     if (!further || (single_ && kept_.size() >= kUsual)) return false;
   }
   pieces_[index] = whole;

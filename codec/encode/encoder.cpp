@@ -62,29 +62,37 @@ struct Encoder::Impl : Encoder::Place {
                          (has_body(plane.object_mask) && !state.body.coding.valid))) {
       return internal::invalid("a predictive plane needs an intra plane of its kind before it");
     }
-    return internal::objection(plane);
+    const TemporalHeader& temporal = plane.temporal;
+    const bool usual = !plane.intra && plane.face != nullptr && plane.body == nullptr &&
+                       plane.object_mask == ObjectMask::face && !temporal.skip && !temporal.rate &&
+                       !temporal.time_code;
+    return usual ? std::nullopt : internal::objection(plane);
   }
 
   void write_high(bool intra, int first, int last) {
-    HighLevelState& high = state.high;
-    const auto& levels = high_levels;
     const std::size_t begin = out.position();
+    const std::size_t count = std::size_t(last - first) + 1;
+    const std::int32_t* levels = &high_levels[std::size_t(first)];
+    const std::int32_t* max = &state.high.max[std::size_t(first)];
+    std::int32_t* value = &state.high.value[std::size_t(first)];
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::int32_t change = levels[i] * state.high.step_of(first + int(i));
+      value[i] = intra ? change : value[i] + change;
+    }
     SegmentEncoder segment(out);
-    segment.encode(std::size_t(last - first) + 1, [&](std::size_t i) {
-      const int which = first + int(i);
-      const std::size_t index = std::size_t(which);
-      const std::int32_t max = high.max_level(which);
-      const std::int32_t change = levels[index] * high.step_of(which);
-      if (intra) {
-        high.value[index] = change;
-        return flat_interval(std::uint32_t(levels[index]), std::uint32_t(max + 1));
-      }
-      high.value[index] += change;
-      const std::uint32_t symbol = std::uint32_t(levels[index] + max);
-      const SymbolInterval interval = high.model[index].interval(symbol);
-      high.model[index].update(symbol);
-      return interval;
-    });
+    if (intra) {
+      segment.encode(count, [=](std::size_t i) {
+        return flat_interval(std::uint32_t(levels[i]), std::uint32_t(max[i] + 1));
+      });
+    } else {
+      AdaptiveModel* models = &state.high.model[std::size_t(first)];
+      segment.encode(count, [=](std::size_t i) {
+        const std::uint32_t symbol = std::uint32_t(levels[i] + max[i]);
+        const SymbolInterval interval = models[i].interval(symbol);
+        models[i].update(symbol);
+        return interval;
+      });
+    }
     if (segment.flush() >= internal::kManyZeros) trace.segments.push_back({begin, out.position()});
   }
 
@@ -213,6 +221,10 @@ struct Encoder::Impl : Encoder::Place {
     plane_begin = out.position();
     follows = !has_start_code(plane);
     can_grow = !plane.intra && !plane.temporal.skip && plane.object_mask != ObjectMask::nothing;
+    if (can_grow) {  // the usual one, which skips no frames
+      out.bits(std::uint32_t(plane.object_mask) << 1, kPlainHeaderBits);
+      return;
+    }
     out.bit(plane.intra);
     out.bits(std::uint32_t(plane.object_mask), 2);
     if (plane.object_mask != ObjectMask::nothing)

@@ -9,8 +9,9 @@ namespace animeme::fba::internal {
 
 namespace {
 
-Error value_error(const char* what, int number, std::int64_t value, std::int64_t level,
-                  std::int64_t low, std::int64_t high) {
+[[gnu::cold, gnu::noinline]] Error value_error(const char* what, int number, std::int64_t value,
+                                               std::int64_t level, std::int64_t low,
+                                               std::int64_t high) {
   return make_error(Code::out_of_range, std::string(what) + " " + std::to_string(number) + " = " +
                                             std::to_string(value) + " needs level " +
                                             std::to_string(level) + ", outside the range " +
@@ -142,19 +143,24 @@ bool quantise_slots(const SlotState& state, const SlotCoding& coding, bool intra
 
 bool quantise_high(const HighLevelState& state, int fap_quant, bool intra, int first, int last,
                    const HighLevels& values, HighLevels& levels, std::optional<Error>& error) {
-  for (int which = first; which <= last; ++which) {
-    const std::size_t index = std::size_t(which);
-    const std::int64_t base = intra ? 0 : state.value[index];
-    const std::int64_t change = values[index] - base;
-    const std::int32_t step = high_level_step(which, fap_quant);
+  const auto take = [&](std::size_t index, std::int64_t change, std::int32_t step, std::int64_t low,
+                        std::int64_t high) {
     const std::int64_t level = step == 1 ? change : quantise(change, step);
-    const std::int64_t max = intra ? high_level_max(which, fap_quant) : state.max_level(which);
-    if (level > max || level < (intra ? 0 : -max)) {
-      error = value_error("high-level FAP", which <= kVisemeBlend ? 1 : 2, values[index], level,
-                          intra ? 0 : -max, max);
-      return false;
-    }
     levels[index] = std::int32_t(level);
+    if (level >= low && level <= high) return true;
+    error = value_error("high-level FAP", index <= kVisemeBlend ? 1 : 2, values[index], level, low,
+                        high);
+    return false;
+  };
+  for (auto index = std::size_t(first); index <= std::size_t(last); ++index) {
+    if (intra) {
+      const std::int64_t max = high_level_max(int(index), fap_quant);
+      if (!take(index, values[index], high_level_step(int(index), fap_quant), 0, max)) return false;
+    } else {
+      const std::int64_t change = std::int64_t(values[index]) - state.value[index];
+      const std::int64_t max = state.max[index];
+      if (!take(index, change, state.step[index], -max, max)) return false;
+    }
   }
   return true;
 }

@@ -28,7 +28,7 @@ void SegmentEncoder::settle(std::uint32_t carry) {
 // The description writes the bit that says in which half the second quarter of the registers lies,
 // and behind it the pending ones and one more, which are its opposite: the first two bits of
 // low + 1/4, with its carry.
-int SegmentEncoder::flush() {
+int SegmentEncoder::flush_any() {
   const std::uint64_t rest = (now_.low + 0x4000U) >> 14;
   const int count = now_.bits + 2;
   now_ = {};

@@ -79,7 +79,17 @@ class SegmentEncoder {
     now_ = now;
   }
   /// Ends the segment (an empty one is the two bits 01). Returns how many zeros are at its end.
-  int flush();
+  int flush() {
+    // What a short one has, unless a 1 may have to be stuffed.
+    const std::uint64_t rest = (now_.low + 0x4000U) >> 14;
+    const int count = now_.bits + 2;
+    if (waiting_ || zeros_ != 0 || count > kStuffingRun || rest >> count != 0 || rest == 0) {
+      return flush_any();
+    }
+    now_ = {};
+    out_.bits(std::uint32_t(rest), count);
+    return std::countr_zero(std::uint32_t(rest));
+  }
 
  private:
   struct Registers {
@@ -90,6 +100,7 @@ class SegmentEncoder {
     int bits = 0;                    // above the 16
   };
 
+  int flush_any();
   void add_word(std::uint64_t word);
   void settle(std::uint32_t carry);
   void put_word(std::uint32_t word);

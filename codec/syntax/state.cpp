@@ -67,6 +67,7 @@ std::size_t SlotCoding::range_bits() const {
 void HighLevelState::reset_models() {
   for (int which = 0; which < kHighLevelCount; ++which) {
     max[std::size_t(which)] = high_level_max(which, fap_quant);
+    step[std::size_t(which)] = high_level_step(which, fap_quant);
     model[std::size_t(which)].reset(std::uint32_t(2 * max_level(which) + 1));
   }
 }

@@ -124,10 +124,12 @@ struct HighLevelState {
   std::array<std::int32_t, kHighLevelCount> value{};
   std::array<AdaptiveModel, kHighLevelCount> model;
   int fap_quant = 1;
-  std::array<std::int32_t, kHighLevelCount> max{};  // largest levels at that, since reset_models()
+  // Largest levels and quantiser steps at that, since reset_models().
+  std::array<std::int32_t, kHighLevelCount> max{};
+  std::array<std::int32_t, kHighLevelCount> step{};
 
   std::int32_t max_level(int which) const { return max[std::size_t(which)]; }
-  std::int32_t step_of(int which) const { return high_level_step(which, fap_quant); }
+  std::int32_t step_of(int which) const { return step[std::size_t(which)]; }
   void reset_models();
 };
 
