@@ -142,9 +142,12 @@ class Sink : public WebSink {
   std::shared_ptr<Broadcast> broadcast_;
   std::shared_ptr<PeerConnections> peer_connections_;  // null: no WebRTC
   bool over_ = false;
-  Values values_;
-  std::vector<LiveUnit> unread_;  // since the last intra plane; not decoded
-  PlaneWriter planes_;
+  struct Decoded {
+    Values values;
+    PlaneWriter planes;
+  };
+  std::unique_ptr<Decoded> decoded_;         // while somebody wants it
+  std::vector<LiveUnit> unread_;             // since the last intra plane; not decoded
   std::vector<media::AudioPacket> packets_;  // of the next segment
   std::uint32_t segments_ = 0;
   double now_ = 0;  // on the clock of the segments
@@ -250,15 +253,17 @@ void Sink::send_values(const LiveUnit& unit) {
                       (peer_connections_ && peer_connections_->busy() > 0);
   if (shared_server_ && !wanted) {
     if (unit.intra || !unread_.empty()) unread_.push_back(unit);
-    values_ = Values();
-    planes_ = PlaneWriter();
-    broadcast_->forget(Channel::faps);
-    broadcast_->forget(Channel::planes);
+    if (decoded_) {
+      broadcast_->forget(Channel::faps);
+      broadcast_->forget(Channel::planes);
+    }
+    decoded_.reset();
     return;
   }
+  if (!decoded_) decoded_ = std::make_unique<Decoded>();
   unread_.push_back(unit);
   for (const LiveUnit& next : std::exchange(unread_, {})) {
-    const auto face = values_.push(next.bytes);
+    const auto face = decoded_->values.push(next.bytes);
     std::string text;
     if (face) {
       const std::int64_t time = next.time + std::int64_t(info_.timescale) * kWebTimeZero;
@@ -273,7 +278,7 @@ void Sink::send_values(const LiveUnit& unit) {
                                      next.bytes.size()};
       broadcast_->publish(
           Channel::planes,
-          {.bytes = planes_.write(plane, *face), .entry = next.intra, .time = seconds});
+          {.bytes = decoded_->planes.write(plane, *face), .entry = next.intra, .time = seconds});
     }
     if (peer_connections_) peer_connections_->send(next, text);
   }
