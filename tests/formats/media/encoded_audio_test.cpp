@@ -254,10 +254,110 @@ TEST(EncodedAudio, OpusRepeatsWhatIsExpectedToBeLost) {
   for (const AudioPacket& packet : plain->packets) plain_bytes += packet.bytes.size();
   for (const AudioPacket& packet : repeated->packets) repeated_bytes += packet.bytes.size();
   EXPECT_NEAR(double(repeated_bytes), double(plain_bytes), 0.1 * double(plain_bytes));
-  for (const int wrong : {-1, 51}) {
+  for (const int wrong : {-2, 51}) {
     settings.expected_loss = wrong;
     EXPECT_EQ(encode_audio(*voice, settings).error().code, Code::invalid_argument);
   }
+}
+
+// Mean square of the difference of two sounds in [from, to) seconds.
+double difference(const Pcm& one, const Pcm& other, double from, double to) {
+  double sum = 0;
+  const auto begin = std::size_t(from * one.sample_rate), end = std::size_t(to * one.sample_rate);
+  for (std::size_t i = begin; i < end; ++i) {
+    const double apart = double(one.samples.at(i)) - double(other.samples.at(i));
+    sum += apart * apart / double(end - begin);
+  }
+  return sum;
+}
+
+// A voice of eight seconds at 48 kHz, whose packets from each of `turns` on (seconds) expect
+// another loss.
+EncodedAudio encoded_with_turns(const Pcm& voice, AudioSettings settings,
+                                const std::vector<std::pair<double, int>>& turns) {
+  auto encoder = AudioEncoder::open(voice.sample_rate, settings);
+  EXPECT_TRUE(encoder);
+  EncodedAudio sound{encoder->format(), {}, std::int64_t(voice.samples.size())};
+  const auto add = [&](Result<std::vector<AudioPacket>> packets) {
+    ASSERT_TRUE(packets);
+    for (AudioPacket& packet : *packets) sound.packets.push_back(std::move(packet));
+  };
+  std::size_t at = 0;
+  for (const auto& [time, percent] : turns) {
+    const auto until = std::size_t(time * voice.sample_rate);
+    add(encoder->push(std::span(voice.samples).subspan(at, until - at)));
+    EXPECT_TRUE(encoder->expect_loss(percent));
+    at = until;
+  }
+  add(encoder->push(std::span(voice.samples).subspan(at)));
+  add(encoder->finish());
+  return sound;
+}
+
+EncodedAudio part_of(const EncodedAudio& sound, double from, double to) {
+  EncodedAudio part{sound.format, {}, 0};
+  for (const AudioPacket& packet : sound.packets) {
+    const double time = double(packet.time) / sound.format.sample_rate;
+    if (time >= from && time < to) part.packets.push_back(packet);
+  }
+  return part;
+}
+
+// The loss that is expected changes while a voice is encoded: no packet is missing, none comes
+// twice, and nothing is heard of the change.
+TEST(EncodedAudio, OpusFollowsTheLossThatIsExpected) {
+  const auto read =
+      read_audio(std::string(test::kSourceFolder) + "/tools/release/samples/voice.wav");
+  ASSERT_TRUE(read);
+  auto voice = resample(*read, 48000);
+  ASSERT_TRUE(voice);
+  const std::vector<float> once = voice->samples;
+  while (voice->duration() < 8) {
+    voice->samples.insert(voice->samples.end(), once.begin(), once.end());
+  }
+  voice->samples.resize(48000 * 8);
+  for (const int effort : {5, 10}) {
+    AudioSettings settings{AudioCodec::opus, 48000, effort};
+    const auto fixed = [&](int percent) {
+      settings.expected_loss = percent;
+      return encode_audio(*voice, settings);
+    };
+    const auto plain = fixed(0), most = fixed(20);
+    ASSERT_TRUE(plain && most);
+    settings.expected_loss = AudioSettings::kLossByReports;
+    const auto untold = encode_audio(*voice, settings);
+    ASSERT_TRUE(untold);
+    EXPECT_EQ(untold->packets, plain->packets) << "nothing was said";
+
+    const EncodedAudio sound =
+        encoded_with_turns(*voice, settings, {{2, 10}, {4, 20}, {4.1, 5}, {6, 0}});
+    ASSERT_EQ(sound.packets.size(), plain->packets.size());
+    for (std::size_t i = 0; i < sound.packets.size(); ++i) {
+      EXPECT_EQ(sound.packets[i].time, plain->packets[i].time);
+      EXPECT_EQ(sound.packets[i].duration, plain->packets[i].duration);
+    }
+    EXPECT_EQ(share_with_fec(part_of(sound, 0, 2.15)), 0);
+    EXPECT_GT(share_with_fec(part_of(sound, 2.3, 6)), 0.4);
+    EXPECT_EQ(share_with_fec(part_of(sound, 6.25, 8)), 0);
+
+    // Noise of coding around the turns is what it is elsewhere.
+    const auto heard = decode_audio(sound), a = decode_audio(*plain), b = decode_audio(*most);
+    ASSERT_TRUE(heard && a && b);
+    for (double time = 0.2; time < 7.8; time += 0.02) {
+      const double usual = std::max(difference(*a, *voice, time - 0.04, time + 0.06),
+                                    difference(*b, *voice, time - 0.04, time + 0.06));
+      EXPECT_LT(difference(*heard, *voice, time, time + 0.02), 6 * usual + 1e-6)
+          << time << " s, effort " << effort;
+    }
+    // One that was fixed stays so, AAC has none, and there are bounds.
+    settings.expected_loss = 0;
+    EXPECT_EQ(encoded_with_turns(*voice, settings, {{2, 20}}).packets, plain->packets);
+  }
+  auto encoder = AudioEncoder::open(48000, {.expected_loss = AudioSettings::kLossByReports});
+  ASSERT_TRUE(encoder);
+  EXPECT_TRUE(encoder->expect_loss(50));
+  EXPECT_EQ(encoder->expect_loss(-1).error().code, Code::invalid_argument);
+  EXPECT_EQ(encoder->expect_loss(51).error().code, Code::invalid_argument);
 }
 
 }  // namespace encoded_audio_test

@@ -34,6 +34,7 @@ TEST(HeadSettings, WhatIsWrittenIsReadAgain) {
   const Result<HeadSettings> settings = serve::read_settings(json, {});
   ASSERT_TRUE(settings) << settings.error().message;
   EXPECT_EQ(serve::settings_json(*settings), json);
+  EXPECT_EQ(json["audio_fec"], "auto");
   const Result<HeadSettings> nothing = read("{}");
   ASSERT_TRUE(nothing);
   EXPECT_EQ(serve::settings_json(*nothing), json);
@@ -66,6 +67,7 @@ TEST(HeadSettings, FaultsNameTheMember) {
       {R"({"seed": 1.5})", "\"seed\""},
       {R"({"audio_effort": 11})", "\"audio_effort\""},
       {R"({"audio_fec": 51})", "\"audio_fec\""},
+      {R"({"audio_fec": "some"})", "\"audio_fec\" is \"auto\" or a number from 0 to 50"},
       {R"({"audio_codec": "mp3"})", "\"audio_codec\" is \"opus\" or \"aac\""},
       {R"({"Pitch": 50})", "no \"Pitch\"; there are articulate, audio_bitrate"}};
   for (const auto& [text, sentence] : faults) {

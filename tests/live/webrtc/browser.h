@@ -55,10 +55,14 @@ class WebRtcBrowser : public ::testing::Test {
   void serve() { run(webrtc::make_webrtc_sink("webrtc://127.0.0.1:0")); }
   void run(Result<std::unique_ptr<web::WebSink>> sink,
            std::optional<media::EncodedAudio> sound = std::nullopt) {
+    if (!sound) sound = make_sound(8, media::AudioCodec::opus);
+    run(std::move(sink), std::make_unique<media::ClipInput>(make_mouth(8), std::move(*sound),
+                                                            media::ClipOptions{.loop = true}));
+  }
+  void run(Result<std::unique_ptr<web::WebSink>> sink, std::unique_ptr<media::LiveInput> input) {
     ASSERT_TRUE(sink);
     web_ = sink->get();
-    if (!sound) sound = make_sound(8, media::AudioCodec::opus);
-    server_.emplace(std::move(*sink), std::move(*sound));
+    server_.emplace(std::move(*sink), std::move(input));
     ASSERT_TRUE(server_->started()) << server_->started().error().message;
   }
 

@@ -195,8 +195,8 @@ TEST(FeedSound, GoesAgainWhereItIsLost) {
     auto feed = webrtc::Feed::make(info, {.audio_repeat = repeat});
     ASSERT_TRUE(feed);
     webrtc::Receiver knows, other;
-    knows.types = {111, 63};
-    other.types = {96, -1};
+    knows.types = {111, 63, true};
+    other.types = {96, -1, true};
     knows.peer = std::make_unique<FakePeer>(false);
     other.peer = std::make_unique<FakePeer>(false);
     auto& first = static_cast<FakePeer&>(*knows.peer);
@@ -221,6 +221,11 @@ TEST(FeedSound, GoesAgainWhereItIsLost) {
       EXPECT_EQ(second.sounds[i].bytes, Bytes(100, std::uint8_t(i)));
       EXPECT_FALSE(second.sounds[i].redundant);
     }
+    // FEC is for those to whom nothing else helps, and who say that they decode it.
+    EXPECT_EQ(feed->needs_fec(knows), repeat == 0 ? 0.1 : 0);
+    EXPECT_EQ(feed->needs_fec(other), 0.1);
+    other.types.fec = false;
+    EXPECT_EQ(feed->needs_fec(other), 0);
   }
 }
 

@@ -29,6 +29,18 @@ TEST(RedundantSound, IsReadFromDescriptions) {
   EXPECT_EQ(types.redundant, 63);
   EXPECT_EQ(sound_types(kAnswer).opus, 111);
   EXPECT_EQ(sound_types(kAnswer).redundant, -1);
+  EXPECT_TRUE(types.fec);
+  EXPECT_FALSE(sound_types(kAnswer).fec);
+  for (const auto& [parameters, fec] :
+       std::map<std::string, bool>{{"useinbandfec=1", true},
+                                   {"minptime=10; useinbandfec=1;stereo=0", true},
+                                   {"minptime=10;useinbandfec=0", false},
+                                   {"x-useinbandfec=1", false},
+                                   {"useinbandfec=10", false}}) {
+    const std::string sdp =
+        "m=audio 9 X 96\na=rtpmap:96 opus/48000/2\na=fmtp:97 useinbandfec=1\na=fmtp:96 ";
+    EXPECT_EQ(sound_types(sdp + parameters + "\n").fec, fec) << parameters;
+  }
   // With something else in it, without Opus, of video, and no description at all.
   std::string other = kOffer;
   other.replace(other.find("111/111"), 7, "0/0");

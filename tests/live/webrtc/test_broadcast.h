@@ -12,6 +12,7 @@
 
 #include "tests/live/web/test_server.h"
 #include "tools/formats/media/encoded_audio.h"
+#include "tools/formats/media/live/expected_loss.h"
 #include "tools/live/webrtc/webrtc.h"
 
 namespace animeme::test {
@@ -29,9 +30,12 @@ class Broadcast {
                      media::AudioCodec codec = media::AudioCodec::opus)
       : Broadcast(std::move(sink), make_sound(8, codec)) {}
   Broadcast(std::unique_ptr<media::LiveSink> sink, media::EncodedAudio sound)
-      : sink_(std::move(sink)),
-        input_(make_mouth(8), std::move(sound), media::ClipOptions{.loop = true}) {
-    started_ = sink_->start(input_.info());
+      : Broadcast(std::move(sink),
+                  std::make_unique<media::ClipInput>(make_mouth(8), std::move(sound),
+                                                     media::ClipOptions{.loop = true})) {}
+  Broadcast(std::unique_ptr<media::LiveSink> sink, std::unique_ptr<media::LiveInput> input)
+      : sink_(std::move(sink)), input_(std::move(input)) {
+    started_ = sink_->start(input_->info());
     if (started_) thread_ = std::thread([this] { run(); });
   }
   ~Broadcast() { stop(); }
@@ -55,11 +59,13 @@ class Broadcast {
  private:
   void run() {
     media::Pacer pacer(media::steady_clock());
-    while (auto due = input_.next_due()) {
+    media::ExpectedLoss expected;
+    while (auto due = input_->next_due()) {
       while (!over_ && !pacer.wait_until(*due)) {
       }
       if (over_) return;
-      auto units = input_.take(*due);
+      expected.follow(sink_->stats(), media::steady_clock().now(), *input_);
+      auto units = input_->take(*due);
       if (!units) return;
       for (const media::LiveUnit& unit : *units) {
         if (!sink_->send(unit)) return;
@@ -71,7 +77,7 @@ class Broadcast {
   }
 
   std::unique_ptr<media::LiveSink> sink_;
-  media::ClipInput input_;
+  std::unique_ptr<media::LiveInput> input_;
   Result<void> started_;
   std::atomic<bool> over_ = false;
   bool finished_ = false;

@@ -12,6 +12,7 @@
 #include "tools/app/commands/stream_options.h"
 #include "tools/app/commands/track_option.h"
 #include "tools/formats/media/container.h"
+#include "tools/formats/media/live/expected_loss.h"
 #include "tools/live/sessions/address.h"
 #include "tools/live/sessions/event_output.h"
 #include "tools/live/sessions/program.h"
@@ -121,10 +122,12 @@ class Watch {
 Result<void> send_all(media::LiveInput& input, live::Sinks& sinks, media::Clock& clock,
                       media::Pacer& pacer, live::StreamReport& report, Watch& watch, double begin) {
   double polled = clock.now();
+  media::ExpectedLoss expected;
   const auto look = [&]() -> Result<void> {
     if (clock.now() - polled < kPollSeconds) return {};
     polled = clock.now();
     watch.look(sinks, pacer, pacer.now() - begin);
+    expected.follow(sinks.stats(), polled, input);
     return sinks.poll();
   };
   while (!Interrupt::requested()) {
@@ -298,6 +301,9 @@ Result<int> run(StreamOptions& options) {
       return ok.error();
     }
   }
+  const auto loss = media::parse_expected_loss(options.audio_fec);
+  if (!loss) return usage_error("--audio-fec: " + loss.error().message);
+  options.program.coding.audio.expected_loss = *loss;
   if (auto ok = use_rtc_options(options.ice, options.audio_repeat, options.sink.web); !ok) {
     return usage_error(ok.error().message);
   }

@@ -7,6 +7,7 @@
 #include "tools/app/commands/options.h"
 #include "tools/app/commands/spoken_options.h"
 #include "tools/app/commands/track_option.h"
+#include "tools/formats/media/live/expected_loss.h"
 #include "tools/live/webrtc/webrtc.h"
 
 namespace animeme::tools {
@@ -100,11 +101,12 @@ void add_coding_options(OptionTable& cli, StreamOptions& options) {
   cli.add("--audio-bitrate", options.program.coding.audio.bit_rate,
           "Bits per second of sound that is encoded; default: aac 64000, opus 40000")
       ->between(6000, 320000);
-  cli.add("--audio-fec", options.program.coding.audio.expected_loss,
-          "opus: percent of packets that receivers lose; each has the one before it again, "
-          "coarsely; "
-          "not for sound that is Opus already")
-      ->between(0, 50)
+  cli.add("--audio-fec", options.audio_fec,
+          "opus: percent of packets that receivers lose, 0..50; each has the one before it again, "
+          "coarsely; auto: by their reports, for speech that is made while it is sent; not for "
+          "sound that is Opus already")
+      ->value("auto|PERCENT")
+      ->check(problem_of<media::parse_expected_loss>)
       ->show_default();
 }
 

@@ -25,6 +25,7 @@ struct StreamOptions {
   live::SinkOptions sink;             ///< --mtu, --repeat, --bundle, --max-clients ...
   std::vector<std::string> ice;       ///< --ice-server
   std::string audio_repeat = "auto";  ///< --audio-repeat
+  std::string audio_fec = "auto";     ///< --audio-fec
   HeadChoices heads;                  ///< --head, for the page
   live::ProgramOptions program;       ///< what is sent, and how it is coded
   std::string codec;                  ///< --audio-codec

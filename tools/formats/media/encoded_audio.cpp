@@ -18,11 +18,19 @@ constexpr std::size_t kEncoderBlock = 256;
 constexpr int kMostEffort = 10;
 constexpr int kMostLoss = 50;  // percent
 constexpr int kAnalysing = 7;  // libopus looks at the sound from this complexity on
+// An encoder that follows another hears so many frames before its packets are used, so that what it
+// predicts from is nearly what decoders have: 0.2 s of Opus.
+constexpr int kWarmUp = 10;
 
 // The encoders refuse NaN and infinity for the whole track, and a resampler would spread them.
 float legal_sample(float sample) {
   if (sample >= -1.0f && sample <= 1.0f) return sample;
   return sample > 1.0f ? 1.0f : sample < -1.0f ? -1.0f : 0.0f;
+}
+
+Result<void> check_loss(int percent) {
+  if (percent >= 0 && percent <= kMostLoss) return {};
+  return make_error(Code::invalid_argument, "the expected loss of packets is 0 to 50 percent");
 }
 
 Result<void> check(int sample_rate, const AudioSettings& settings, int channels) {
@@ -43,10 +51,8 @@ Result<void> check(int sample_rate, const AudioSettings& settings, int channels)
   if (settings.effort < 0 || settings.effort > kMostEffort) {
     return make_error(Code::invalid_argument, "the effort of an encoder of sound is 0 to 10");
   }
-  if (settings.expected_loss < 0 || settings.expected_loss > kMostLoss) {
-    return make_error(Code::invalid_argument, "the expected loss of packets is 0 to 50 percent");
-  }
-  return {};
+  if (settings.expected_loss == AudioSettings::kLossByReports) return {};
+  return check_loss(settings.expected_loss);
 }
 
 const AVCodec* find_encoder(AudioCodec codec) {
@@ -112,25 +118,35 @@ struct AudioEncoder::Impl {
   std::int64_t sent = 0;       // samples of each channel
   bool finished = false;
 
+  AudioSettings settings;
+  bool follows_loss = false;      // AudioSettings::kLossByReports
+  int loss = 0, wanted_loss = 0;  // percent: of the encoder that was opened last, and to come
+  av::Codec successor;            // takes over when it has heard kWarmUp frames; usually null
+  int successor_heard = 0;        // frames
+
   ~Impl() {
     const av::LogCapture log;  // encoders say goodbye
     codec.reset();
+    successor.reset();
   }
   Result<void> open(int sample_rate, const AudioSettings& settings, int channels);
   std::size_t channels() const { return std::size_t(format.channels); }
   Result<void> take(std::span<const float> samples);
   Result<void> resample_block();
   Result<void> encode(bool all, std::vector<AudioPacket>& out);
+  void follow_loss();
+  void warm_up();
   int send(std::span<const float> samples);
   Result<void> receive(std::vector<AudioPacket>& out);
 };
 
-Result<void> AudioEncoder::Impl::open(int sample_rate, const AudioSettings& settings,
-                                      int channels) {
+Result<void> AudioEncoder::Impl::open(int sample_rate, const AudioSettings& wanted, int channels) {
   if (!frame || !packet) return av::no_memory();
+  settings = wanted;
+  settings.bit_rate = int(coded_bit_rate(wanted, sample_rate, channels));
+  follows_loss = wanted.codec == AudioCodec::opus && wanted.expected_loss < 0;
   const int rate = coded_sample_rate(settings.codec, sample_rate);
-  Result<av::Codec> opened =
-      open_encoder(settings, rate, coded_bit_rate(settings, sample_rate, channels), channels);
+  Result<av::Codec> opened = open_encoder(settings, rate, settings.bit_rate, channels);
   if (!opened) return opened.error();
   codec = std::move(*opened);
   format = {settings.codec, rate, channels, codec->frame_size, codec->initial_padding, {}};
@@ -183,8 +199,29 @@ int AudioEncoder::Impl::send(std::span<const float> samples) {
   }
   sent += std::int64_t(count);
   status = avcodec_send_frame(codec.get(), frame.get());
+  if (successor) warm_up();
   av_frame_unref(frame.get());
   return status;
+}
+
+// libopus could change what it expects, but FFmpeg passes that on only when an encoder is opened:
+// another one hears the same frames and takes over.
+void AudioEncoder::Impl::follow_loss() {
+  if (successor && successor_heard >= kWarmUp) codec = std::move(successor);
+  if (successor || loss == wanted_loss) return;
+  settings.expected_loss = loss = wanted_loss;
+  Result<av::Codec> opened =
+      open_encoder(settings, format.sample_rate, settings.bit_rate, format.channels);
+  if (!opened || (*opened)->initial_padding != format.priming) return;  // the old one does it
+  successor = std::move(*opened);
+  successor_heard = 0;
+}
+
+// Gives the successor the frame that has been sent. Its packets are nobody's yet.
+void AudioEncoder::Impl::warm_up() {
+  if (avcodec_send_frame(successor.get(), frame.get()) < 0) return successor.reset();
+  while (avcodec_receive_packet(successor.get(), packet.get()) >= 0) av_packet_unref(packet.get());
+  ++successor_heard;
 }
 
 Result<void> AudioEncoder::Impl::receive(std::vector<AudioPacket>& out) {
@@ -208,6 +245,7 @@ Result<void> AudioEncoder::Impl::encode(bool all, std::vector<AudioPacket>& out)
   std::size_t at = 0;
   while (samples.size() - at >= size || (all && samples.size() - at >= channels())) {
     const std::size_t count = std::min(size, samples.size() - at);
+    follow_loss();
     const int status = send(samples.subspan(at, count));
     if (status < 0) {
       return make_error(Code::io, "the sound cannot be encoded: " + av::error_text(status));
@@ -237,6 +275,12 @@ Result<AudioEncoder> AudioEncoder::open(int sample_rate, const AudioSettings& se
 }
 
 const AudioFormat& AudioEncoder::format() const { return impl_->format; }
+
+Result<void> AudioEncoder::expect_loss(int percent) {
+  if (auto legal = check_loss(percent); !legal) return legal;
+  if (impl_->follows_loss) impl_->wanted_loss = percent;
+  return {};
+}
 
 Result<std::vector<AudioPacket>> AudioEncoder::push(std::span<const float> samples) {
   return av::guarded([&]() -> Result<std::vector<AudioPacket>> {

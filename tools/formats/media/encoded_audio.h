@@ -76,8 +76,10 @@ struct AudioSettings {
   AacSearch aac_search = AacSearch::fast;  ///< AAC only
   /// Opus: percent of the packets that receivers are expected to lose, 0..50. Each packet of speech
   /// then has the one before it again, coarsely (in-band FEC, RFC 6716, section 2.1.7), within the
-  /// same bit rate. Above 0 the encoder works as for a voice.
+  /// same bit rate. Above 0 the encoder works as for a voice. kLossByReports: none, until
+  /// AudioEncoder::expect_loss() says how many.
   int expected_loss = 0;
+  static constexpr int kLossByReports = -1;  ///< value of expected_loss
 };
 
 /// Sound in, packets out, for sound that is still being made. Movable, not copyable. Same sound in
@@ -94,6 +96,10 @@ class AudioEncoder {
   ~AudioEncoder();
 
   const AudioFormat& format() const;  ///< fixed from open() on
+  /// Opus that was opened with AudioSettings::kLossByReports: as if it had been opened with this
+  /// expected loss, from 0.2 s of sound later on; no packet is missing or longer in between. Others
+  /// stay as they are. Errors: invalid_argument (not 0..50).
+  Result<void> expect_loss(int percent);
   /// Appends sound, of two channels in pairs (left, right), and gives out the packets that are
   /// complete. Values outside +-1 are clipped, NaN is 0. Errors: io (the encoder fails),
   /// invalid_argument (after finish()).

@@ -147,6 +147,7 @@ void Head::note_latencies() {
 Result<void> Head::send_due() {
   const std::optional<double> due = speaker_->next_due();
   if (!due || pacer_.now() < *due) return {};
+  expected_.follow(sink_->stats(), clock_.now(), *speaker_);
   Result<std::vector<media::LiveUnit>> units = speaker_->take(pacer_.now());
   if (!units) return units.error();
   for (const media::LiveUnit& unit : *units) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "dam/model/model.h"
+#include "tools/formats/media/live/expected_loss.h"
 #include "tools/formats/media/live/pacer.h"
 #include "tools/live/serve/clock_loop.h"
 #include "tools/live/serve/head_lines.h"
@@ -114,6 +115,7 @@ class Head : public Beat {
   bool asleep_ = true;
   double resume_ = 0;  // presentation time at which it sleeps
   double wanted_ = 0;  // instant at which it was last
+  media::ExpectedLoss expected_;
   media::LatenessMeter late_;
   double noted_ = 0;  // instant at which the last line began whose latency was noted
   std::string failure_;

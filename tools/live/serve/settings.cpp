@@ -100,6 +100,7 @@ HeadSettings::HeadSettings() {
   motion.articulation = std::nullopt;
   motion.tongue = motion.symmetric_rest = true;
   audio = {media::AudioCodec::opus, 48000, 5};
+  audio.expected_loss = media::AudioSettings::kLossByReports;
 }
 
 Result<HeadSettings> read_settings(const Json& json, HeadSettings settings) {
@@ -166,7 +167,14 @@ Result<HeadSettings> read_settings(const Json& json, HeadSettings settings) {
   }
   members.number("audio_bitrate", 8000, 256000, settings.audio.bit_rate);
   members.number("audio_effort", 0, 10, settings.audio.effort);
-  members.number("audio_fec", 0, 50, settings.audio.expected_loss);
+  if (json.contains("audio_fec") && json["audio_fec"].is_string()) {
+    std::string percent;
+    members.text("audio_fec", percent);
+    if (percent != "auto") members.fault("\"audio_fec\" is \"auto\" or a number from 0 to 50");
+    settings.audio.expected_loss = media::AudioSettings::kLossByReports;
+  } else {
+    members.number("audio_fec", 0, 50, settings.audio.expected_loss);
+  }
   if (auto ok = members.done(); !ok) return ok.error();
   return settings;
 }
@@ -209,7 +217,8 @@ Json settings_json(const HeadSettings& settings) {
           {"audio_codec", media::name_of(settings.audio.codec)},
           {"audio_bitrate", settings.audio.bit_rate},
           {"audio_effort", settings.audio.effort},
-          {"audio_fec", settings.audio.expected_loss}};
+          {"audio_fec",
+           settings.audio.expected_loss < 0 ? Json("auto") : Json(settings.audio.expected_loss)}};
 }
 
 bool is_head_name(std::string_view name) {

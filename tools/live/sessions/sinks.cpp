@@ -105,6 +105,7 @@ media::SendStats Sinks::stats() const {
     sum.receivers += one.receivers;
     sum.dropped += one.dropped;
     sum.reported_loss = std::max(sum.reported_loss, one.reported_loss);
+    sum.sound_loss = std::max(sum.sound_loss, one.sound_loss);
   }
   return sum;
 }

@@ -45,7 +45,8 @@ class PeerConnections {
   virtual void finish(bool over) = 0;
   /// Connections, also those that are being made.
   virtual int busy() const = 0;
-  /// `receivers`, `packets`, `bytes`, `dropped` and `repeated` of all connections.
+  /// `receivers`, `packets`, `bytes`, `dropped` and `repeated` of all connections, `reported_loss`
+  /// (of the sound) and `sound_loss` of the one that has most.
   virtual media::SendStats stats() const = 0;
 };
 

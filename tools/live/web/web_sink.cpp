@@ -94,6 +94,8 @@ class Sink : public WebSink {
       stats.bytes += more.bytes;
       stats.dropped += more.dropped;
       stats.repeated += more.repeated;
+      stats.reported_loss = more.reported_loss;
+      stats.sound_loss = more.sound_loss;
     }
     stats.face_units = face_units_;
     stats.audio_units = audio_units_;

@@ -118,10 +118,10 @@ void Feed::give(Receiver& receiver) {
 }
 
 void Feed::give_sound(Receiver& receiver) {
+  receiver.loss = receiver.peer->reported_loss();
   int repeats = 0;
   if (receiver.types.redundant >= 0) {
-    repeats =
-        audio_repeat_ >= 0 ? audio_repeat_ : receiver.gauge.repeats(receiver.peer->reported_loss());
+    repeats = audio_repeat_ >= 0 ? audio_repeat_ : receiver.gauge.repeats(receiver.loss);
   }
   ++stats_.packets;
   if (repeats == 0) {
@@ -132,6 +132,11 @@ void Feed::give_sound(Receiver& receiver) {
   const std::vector<std::uint8_t> payload = redundant_.payload(repeats, receiver.types.opus);
   receiver.peer->send_sound(payload, rtp_time_, true);
   stats_.bytes += std::int64_t(payload.size());
+}
+
+double Feed::needs_fec(const Receiver& receiver) const {
+  const bool repeats = receiver.types.redundant >= 0 && audio_repeat_ != 0;
+  return receiver.types.fec && !repeats ? receiver.loss : 0;
 }
 
 void Feed::tell(Receiver& receiver, std::string_view json) {

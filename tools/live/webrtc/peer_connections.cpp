@@ -1,4 +1,5 @@
 // Viewers that connect by WHEP, and the thread that adds and removes them.
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -222,7 +223,8 @@ void PeerHub::let_in(Offer offer) {
   settings.turn = options_.turn;
   Viewer viewer;
   viewer.address = std::move(offer.address);
-  if (has_sound_ && options_.audio_repeat != 0) viewer.types = sound_types(settings.offer);
+  if (has_sound_) viewer.types = sound_types(settings.offer);
+  if (options_.audio_repeat == 0) viewer.types.redundant = -1;
   settings.redundant = viewer.types.redundant;
   viewer.answered = std::make_shared<std::atomic<bool>>(false);
   viewer.peer = (*module)->open(
@@ -258,7 +260,12 @@ void PeerHub::finish(bool over) {
 media::SendStats PeerHub::stats() const {
   const std::lock_guard lock(mutex_);
   media::SendStats stats = feed_ ? feed_->stats() : media::SendStats{};
-  for (const auto& [id, viewer] : viewers_) stats.receivers += viewer.connected ? 1 : 0;
+  for (const auto& [id, viewer] : viewers_) {
+    if (!viewer.connected) continue;
+    ++stats.receivers;
+    stats.reported_loss = std::max(stats.reported_loss, viewer.loss);
+    stats.sound_loss = std::max(stats.sound_loss, feed_->needs_fec(viewer));
+  }
   return stats;
 }
 

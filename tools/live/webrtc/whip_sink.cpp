@@ -142,6 +142,10 @@ media::SendStats WhipSink::stats() const {
   stats.face_units = face_units_;
   stats.audio_units = audio_units_;
   stats.receivers = connected_ ? 1 : 0;
+  if (connected_) {
+    stats.reported_loss = receiver_.loss;
+    stats.sound_loss = feed_->needs_fec(receiver_);
+  }
   return stats;
 }
 

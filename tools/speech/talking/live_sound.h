@@ -25,6 +25,8 @@ class LiveSound {
   /// Fades everything out over `fade` samples to silence from sample `end`. Samples before made()
   /// do not change, which may shorten the fade.
   void end_at(std::int64_t end, std::int64_t fade);
+  /// As media::AudioEncoder::expect_loss(); values out of range do nothing.
+  void expect_loss(int percent) { (void)encoder_.expect_loss(percent); }
   /// The samples from made() on, up to the end of all pieces; they stay.
   std::vector<float> rest() const;
   /// Number of samples, at `sample_rate`, already passed to the encoder.

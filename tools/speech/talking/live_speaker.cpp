@@ -133,6 +133,10 @@ bool LiveSpeaker::silent() const {
 
 void LiveSpeaker::hear(std::unique_ptr<OtherVoice> other) { impl_->other = std::move(other); }
 
+void LiveSpeaker::expect_loss(int percent) {
+  if (impl_->sound) impl_->sound->expect_loss(percent);
+}
+
 std::vector<LineEvent> LiveSpeaker::take_events() { return impl_->events.take(); }
 
 void LiveSpeaker::end(const std::string& why) {

@@ -77,6 +77,7 @@ class LiveSpeaker : public media::LiveInput {
   std::optional<double> next_due() override;
   Result<std::vector<media::LiveUnit>> take(double now) override;
   void sent(const media::LiveUnit& unit, double instant) override;
+  void expect_loss(int percent) override;
 
   /// What the other party says is heard from now on: the face listens while it speaks, and nods at
   /// its pauses. Null: nothing is heard.

@@ -397,6 +397,10 @@ void LiveVoice::sent(const LiveUnit& unit, double instant) {
   impl_->events.tell(media::seconds_of(impl_->info, unit.track, unit.time));
 }
 
+void LiveVoice::expect_loss(int percent) {
+  if (impl_->sound) impl_->sound->expect_loss(percent);
+}
+
 std::vector<LineEvent> LiveVoice::take_events() { return impl_->events.take(); }
 
 void LiveVoice::end(const std::string& why) {

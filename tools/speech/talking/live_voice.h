@@ -80,6 +80,7 @@ class LiveVoice : public media::LiveInput {
   std::optional<double> next_due() override;
   Result<std::vector<media::LiveUnit>> take(double now) override;
   void sent(const media::LiveUnit& unit, double instant) override;
+  void expect_loss(int percent) override;
   /// Events up to the last sent frame, in order, since the last call: of commands.
   std::vector<LineEvent> take_events();
   /// Ends: what the commands wait for is cancelled, with events from take_events().

@@ -63,6 +63,9 @@ struct SendStats {
   std::int64_t receivers = 0;    ///< currently connected (HTTP, SRT) or reporting (RTCP)
   std::int64_t dropped = 0;      ///< units dropped for slow receivers
   double reported_loss = 0;      ///< share of packets, from receiver reports; 0..1
+  /// Share of the packets of sound, 0..1: of the receiver that reports most, of those that Opus'
+  /// in-band FEC helps.
+  double sound_loss = 0;
 };
 
 /// Sends one presentation. Not thread safe.

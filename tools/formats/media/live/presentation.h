@@ -47,6 +47,9 @@ class LiveInput {
     (void)unit;
     (void)instant;
   }
+  /// Receivers lose so many percent of the packets of sound, 0..50, and nothing else makes up for
+  /// it: what is coded from now on may be coded for that.
+  virtual void expect_loss(int percent) { (void)percent; }
 };
 
 /// Presentation time at which a unit of `input` is due.

@@ -33,4 +33,13 @@ double RtpListeners::loss(double now) const {
   return all > 0 ? sum / double(all) : 0;
 }
 
+double RtpListeners::sound_loss(double now) const {
+  double most = 0;
+  for (const auto& [id, listener] : listeners_) {
+    if (now - listener.heard > kGone) continue;
+    most = std::max(most, listener.loss[std::size_t(LiveTrack::audio)]);
+  }
+  return most;
+}
+
 }  // namespace animeme::media

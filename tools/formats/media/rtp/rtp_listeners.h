@@ -21,6 +21,7 @@ class RtpListeners {
   std::int64_t count(double now) const;  ///< that reported recently
   /// Mean over listeners of the worse of their tracks; 0..1.
   double loss(double now) const;
+  double sound_loss(double now) const;  ///< of the one that lost most of the sound; 0..1
 
  private:
   struct Listener {

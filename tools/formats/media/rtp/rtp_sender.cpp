@@ -250,6 +250,7 @@ SendStats RtpSender::stats(double now) const {
   SendStats stats = stats_;
   stats.receivers = listeners_.count(now);
   stats.reported_loss = listeners_.loss(now);
+  stats.sound_loss = listeners_.sound_loss(now);
   return stats;
 }
 

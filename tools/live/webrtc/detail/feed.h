@@ -28,6 +28,7 @@ struct Receiver {
   std::uint64_t reliable = 0;
   SoundTypes types;  ///< of its sound
   LossGauge gauge;   ///< of its sound
+  double loss = 0;   ///< share of its packets of sound, by its newest report
 };
 
 /// Not thread safe.
@@ -47,7 +48,9 @@ class Feed {
   void tell(Receiver& receiver, std::string_view json);
   /// It is over.
   void end(Receiver& receiver);
-  /// What was handed to connections so far, without `receivers`.
+  /// Its loss, where in-band FEC of Opus helps: it decodes that, and no packets go again.
+  double needs_fec(const Receiver& receiver) const;
+  /// What was handed to connections so far, without `receivers` and losses.
   const media::SendStats& stats() const { return stats_; }
 
  private:

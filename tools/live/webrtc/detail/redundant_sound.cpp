@@ -59,6 +59,16 @@ int type_of(std::string_view line, std::string_view start, std::string& rest) {
   return type;
 }
 
+// In "minptime=10; useinbandfec=1".
+bool has_fec(const std::string& parameters) {
+  std::istringstream all(parameters);
+  for (std::string one; std::getline(all, one, ';');) {
+    std::erase_if(one, [](char c) { return c == ' ' || c == '\t'; });
+    if (one == "useinbandfec=1") return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 SoundTypes sound_types(const std::string& sdp) {
@@ -76,6 +86,7 @@ SoundTypes sound_types(const std::string& sdp) {
   const std::string pair = std::to_string(types.opus) + "/" + std::to_string(types.opus);
   for (std::size_t at = begin; at < end; at = next_line(sdp, at)) {
     const int type = type_of(line_at(sdp, at), "a=fmtp:", rest);
+    if (type >= 0 && type == types.opus) types.fec = has_fec(rest);
     if (types.opus < 0 || (rest != pair && !rest.starts_with(pair + "/"))) continue;
     if (std::find(redundant.begin(), redundant.end(), type) != redundant.end()) {
       types.redundant = type;

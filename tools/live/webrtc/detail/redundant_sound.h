@@ -14,6 +14,7 @@ namespace animeme::webrtc {
 struct SoundTypes {
   int opus = -1;       ///< -1: there is no Opus
   int redundant = -1;  ///< of RFC 2198 with this Opus in it; -1: the other end does not know it
+  bool fec = false;    ///< the other end decodes in-band FEC of this Opus (RFC 7587, section 6.1)
 };
 
 /// Those of the first sound. Any text is accepted.
