@@ -59,6 +59,16 @@ struct LiveVoice::Impl {
   bool starved = false;           // nothing came in time
   std::vector<float> held;        // what has come since, until it is enough to go on with
 
+  /// Sound of the voice that has a place.
+  struct Placed {
+    std::int64_t start = 0;
+    std::vector<float> samples;
+  };
+  std::deque<Placed> placed = {};       // and may not have been passed on, for a pause
+  bool paused = false;                  // nothing is taken
+  std::vector<float> back = {};         // what a pause has taken back; comes before what waits
+  std::optional<std::int64_t> held_at;  // sample where it began; then events wait, too
+
   TalkingFace life;         // what moves besides the mouth
   fap::Frame rest;          // a mouth that says nothing
   fap::Frame mouth = rest;  // as shown last
@@ -72,7 +82,6 @@ struct LiveVoice::Impl {
   std::deque<double> loudness = {};  // sums of squares of frames, from `first_loud` on
   std::int64_t first_loud = 0;
   double spoke = -1;                        // seconds: when the voice was last heard
-  std::string warning;                      // the newest one, not told yet
   double closed_from = -1, closed_to = -1;  // seconds in which a command has closed the mouth
   bool closed = false;                      // likewise
   fap::Frame closing = rest;                // from which it began to
@@ -82,29 +91,46 @@ struct LiveVoice::Impl {
     if (!sound) return std::numeric_limits<double>::infinity();
     return double(sound->next_time()) / info.audio->sample_rate - options.audio_ahead;
   }
+  // Sample before which all sound is on its way to be heard.
+  std::int64_t passed() const { return sound ? sound->made() : std::llround(frame_due() * rate); }
+  std::vector<float> take(std::size_t most);
+  std::size_t waiting() const { return held.size() + back.size() + pipe->waiting(); }
   Result<void> fill(double now);
   Result<void> wait_for_more();
-  Result<void> lay(std::vector<float> samples, bool voice = true);
+  Result<void> lay(std::vector<float> samples, bool voice = true, bool begins = false);
   void listen(std::int64_t start, const std::vector<float>& samples);
   void collect(double now);
   void follow(const LineNews& news, double time);
   void discard(bool now);
+  void pause();
+  void fall_silent();
   void reach_marks(bool all);
   fap::Frame shown(fap::Frame frame);
   dam::MoodMouth::Shares sounds(const fap::Frame& frame);
   Result<LiveUnit> make_plane();
 };
 
-// Gives the next samples their place in time.
-Result<void> LiveVoice::Impl::lay(std::vector<float> samples, bool voice) {
+// Gives the next samples their place in time. `voice`: else it is silence between. `begins`: they
+// are faded in.
+Result<void> LiveVoice::Impl::lay(std::vector<float> samples, bool voice, bool begins) {
   if (samples.empty()) return {};
-  face->push(samples);
   const std::int64_t start = mixed;
   mixed += std::int64_t(samples.size());
   if (voice) {
+    if (held_at) events.go_on(double(start - *std::exchange(held_at, std::nullopt)) / rate);
     heard += std::int64_t(samples.size());
     reach_marks(false);
+    const auto gone = [this](const Placed& one) {
+      return one.start + std::int64_t(one.samples.size()) <= passed();
+    };
+    while (!placed.empty() && gone(placed.front())) placed.pop_front();
+    if (options.commands != nullptr) placed.push_back({start, samples});
   }
+  const double fade = begins ? kVoiceFade * rate : 0;
+  for (std::size_t i = 0; i < samples.size() && double(i) < fade; ++i) {
+    samples[i] *= float(dam::raised_step((double(i) + 1) / (fade + 1)));
+  }
+  face->push(samples);
   listen(start, samples);
   if (sound) sound->add(start, std::move(samples));
   const Result<dam::Signal> made = face->pull();
@@ -116,16 +142,25 @@ Result<void> LiveVoice::Impl::lay(std::vector<float> samples, bool voice) {
   return {};
 }
 
+// The next samples of the voice, as far as they are there.
+std::vector<float> LiveVoice::Impl::take(std::size_t most) {
+  const auto first = std::ptrdiff_t(std::min(most, back.size()));
+  std::vector<float> some(back.begin(), back.begin() + first);
+  back.erase(back.begin(), back.begin() + first);
+  const std::vector<float> more = pipe->take(most - some.size());
+  some.insert(some.end(), more.begin(), more.end());
+  return some;
+}
+
 Result<void> LiveVoice::Impl::fill(double now) {
   const auto until = [&](double seconds) {
     return std::size_t(std::max<std::int64_t>(std::llround(seconds * rate) - mixed, 0));
   };
-  if (starved) {
-    if (auto ok = wait_for_more(); !ok) return ok;
-  } else {
-    if (auto ok = lay(pipe->take(until(now + options.delay))); !ok) return ok;
+  if (!paused) {
+    auto ok = starved ? wait_for_more() : lay(take(until(now + options.delay)));
+    if (!ok) return ok;
   }
-  if (!end && held.empty() && pipe->over()) {
+  if (!end && held.empty() && back.empty() && pipe->over()) {
     end = std::max(double(mixed) / rate, now) + kEndRest;
     reach_marks(true);
   }
@@ -141,15 +176,11 @@ Result<void> LiveVoice::Impl::fill(double now) {
 // next piece would be late, too, and the next one.
 Result<void> LiveVoice::Impl::wait_for_more() {
   const auto enough = std::size_t(std::llround(kJitter * rate));
-  const std::vector<float> more = pipe->take(enough - held.size());
+  const std::vector<float> more = take(enough - held.size());
   held.insert(held.end(), more.begin(), more.end());
   if (held.empty() || (held.size() < enough && !pipe->over())) return {};
-  const double fade = kVoiceFade * rate;
-  for (std::size_t i = 0; i < held.size() && double(i) < fade; ++i) {
-    held[i] *= float(dam::raised_step((double(i) + 1) / (fade + 1)));
-  }
   starved = false;
-  return lay(std::exchange(held, {}));
+  return lay(std::exchange(held, {}), true, true);
 }
 
 // How loud each frame is.
@@ -168,13 +199,13 @@ void LiveVoice::Impl::collect(double now) {
   const double time = std::min(now, frame_due());
   while (auto line = options.commands->take(false)) {
     if (!line->mark) continue;  // there are no other lines
-    marks.push_back({line->id, heard + std::int64_t(held.size() + pipe->waiting())});
+    marks.push_back({line->id, heard + std::int64_t(waiting())});
   }
   for (const LineNews& news : options.commands->take_news()) follow(news, time);
   reach_marks(false);
   // "end": what has come is presented.
   if (options.commands->ended() && !end) {
-    end = double(mixed + std::int64_t(pipe->waiting())) / rate + kEndRest;
+    end = double(mixed + std::int64_t(waiting())) / rate + kEndRest;
   }
 }
 
@@ -191,34 +222,67 @@ void LiveVoice::Impl::reach_marks(bool all) {
 
 void LiveVoice::Impl::follow(const LineNews& news, double time) {
   if (news.what == LineNews::What::word || direct_face(life, news)) return;
-  if (news.what == LineNews::What::paused || news.what == LineNews::What::resumed) {
-    warning = "a voice that comes from outside cannot be paused; who sends it can wait";
-    return;
-  }
   events.add(event_of(news, time));
+  if (news.what == LineNews::What::paused) return pause();
+  if (news.what == LineNews::What::resumed) paused = false;
   const bool stopped = news.what == LineNews::What::stopped;
   if (!stopped && news.what != LineNews::What::dropped) return;
   if (stopped) events.cut(time, news.line, "stopped");
-  for (const Mark& mark : marks) {
+  discard(stopped);
+  const std::int64_t left = heard + std::int64_t(back.size());
+  std::erase_if(marks, [&](const Mark& mark) {
+    if (mark.at <= left) return false;
     LineEvent cancelled{.what = LineEvent::What::cancelled, .time = time, .id = mark.id};
     cancelled.why = stopped ? "stopped" : "dropped";
     events.add(std::move(cancelled));
-  }
-  marks.clear();
-  discard(stopped);
+    return true;
+  });
 }
 
 // Nothing that was sent before is heard. `now`: neither is what has a place already.
 void LiveVoice::Impl::discard(bool now) {
   pipe->discard();
   held.clear();
-  const auto fade = std::llround(kVoiceFade * rate);
   if (!now) {
-    if (!starved && sound) sound->end_at(mixed, fade);
+    if (!starved && back.empty() && sound) sound->end_at(mixed, std::llround(kVoiceFade * rate));
     starved = true;
     return;
   }
+  paused = false;
+  back.clear();
+  held_at.reset();
+  fall_silent();
+}
+
+// What is not on its way to be heard yet waits, in front of what comes later.
+void LiveVoice::Impl::pause() {
+  paused = true;
+  const std::int64_t from = passed();
+  std::vector<float> left;
+  std::int64_t begin = 0;
+  for (const Placed& one : placed) {
+    const auto gone = std::ptrdiff_t(std::max<std::int64_t>(from - one.start, 0));
+    if (gone >= std::ptrdiff_t(one.samples.size())) continue;
+    if (left.empty()) begin = one.start + gone;
+    left.insert(left.end(), one.samples.begin() + gone, one.samples.end());
+  }
+  if (left.empty() && held.empty()) return;
+  heard -= std::int64_t(left.size());
+  if (!left.empty()) {
+    events.hold(double(begin) / rate);
+    held_at = begin;
+  }
+  left.insert(left.end(), held.begin(), held.end());
+  back.insert(back.begin(), left.begin(), left.end());
+  held.clear();
+  end.reset();
+  fall_silent();
+}
+
+void LiveVoice::Impl::fall_silent() {
+  const auto fade = std::llround(kVoiceFade * rate);
   starved = true;
+  placed.clear();
   if (sound) sound->end_at(sound->made() + fade, fade);
   if (frame_due() >= closed_to) {
     closed_from = frame_due();
@@ -415,14 +479,12 @@ void LiveVoice::end(const std::string& why) {
     impl_->events.add(std::move(event));
   }
   impl_->marks.clear();
+  if (impl_->held_at) impl_->events.cut(time, std::numeric_limits<std::uint64_t>::max(), why);
   impl_->events.tell(std::numeric_limits<double>::infinity());
 }
 
 std::vector<std::string> LiveVoice::take_warnings() {
   std::vector<std::string> warnings;
-  if (std::string told = std::exchange(impl_->warning, {}); !told.empty()) {
-    warnings.push_back(std::move(told));
-  }
   if (const auto error = impl_->pipe->take_error()) warnings.push_back(error->message);
   return warnings;
 }

@@ -9,8 +9,10 @@
 ///
 /// Commands (line_command.h) come by a LineSource: "stop" drops all sound that was sent before it,
 /// also what waits in the pipe, and closes the mouth; "drop" leaves what was about to be heard;
-/// "mark" is reached when all that had come before it is heard; mood, look, listen, think, idle and
-/// end are as for lines. Text is not spoken: the line is cancelled.
+/// "pause" closes the mouth and lets everything wait that is not on its way to be heard, "resume"
+/// goes on there, LiveVoiceOptions::delay later; "mark" is reached when all that had come before it
+/// is heard; mood, look, listen, think, idle and end are as for lines. Text is not spoken: the line
+/// is cancelled.
 #pragma once
 
 #include <cstdint>
