@@ -2,10 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "dam/script/script.h"
 #include "tests/support/program.h"
+#include "tools/formats/media/text_track.h"
 
 namespace animeme {
 namespace carried_words_test {
@@ -71,7 +73,7 @@ class CarriedWords : public testing::TestWithParam<const char*> {
 };
 
 TEST_P(CarriedWords, AreTracksBesideTheirCaptionsUnlessUnwanted) {
-  const std::string german = ending_ == ".mkv" ? "ger" : "deu";
+  const std::string german = "deu";  // Matroska has "ger" for it
   json want = json::array({json::array({"words", german}), json::array({"phones", "zxx"})});
   if (ending_ != ".mp4") want.insert(want.begin(), json::array({"captions", german}));
   EXPECT_EQ(tracks(talk_), want);
@@ -80,6 +82,23 @@ TEST_P(CarriedWords, AreTracksBesideTheirCaptionsUnlessUnwanted) {
   succeeds({"speak", "--script", dir_ / "talk.tsv", "--subtitles", "-o", shown});
   EXPECT_EQ(tracks(shown)[0][0], "captions");
   EXPECT_EQ(tracks(shown).size(), 3u);
+}
+
+TEST_P(CarriedWords, OfOtherFormatsAreJoinedToThoseOfTheLanguage) {
+  const std::string mp4 = dir_ / "first.mp4", both = dir_ / "both.mp4";
+  succeeds({"speak", "--script", dir_ / "talk.tsv", "--lang", "de", "-o", mp4});
+  succeeds({"edit", mp4, talk_, "-o", both});
+  const json all = tracks(both);
+  EXPECT_EQ(std::count(all.begin(), all.end(), json::array({"words", "deu"})), 1) << all;
+  EXPECT_EQ(std::count_if(all.begin(), all.end(), [](auto& one) { return one[0] == "words"; }), 1);
+  const auto texts = media::read_text_tracks(both);
+  ASSERT_TRUE(texts);
+  const auto words = std::find_if(texts->begin(), texts->end(),
+                                  [](const auto& track) { return track.name == "words"; });
+  ASSERT_NE(words, texts->end());
+  ASSERT_EQ(words->cues.size(), 6u);
+  EXPECT_EQ(words->cues[5].text, "öde");
+  EXPECT_GT(words->cues[3].start, 1);
 }
 
 TEST_P(CarriedWords, OfAScriptWithoutALanguageHaveNone) {

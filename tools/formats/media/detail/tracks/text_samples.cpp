@@ -197,7 +197,7 @@ std::string name_of_text(const AVStream& stream) {
 
 std::string language_of_text(const AVStream& stream) {
   const std::string language = tag_of(stream, "language");
-  return language.empty() ? "und" : language;
+  return language.empty() ? "und" : terminological_code(language);
 }
 
 bool is_plain_text(AVCodecID codec) {
