@@ -21,6 +21,12 @@ TEST(DidYouMean, NamesWhatIsNear) {
       {{"encode", "a.fap", "--qaunt", "3"}, "encode has no option --qaunt; did you mean --quant?"},
       {{"speak", "--txt=Hello"}, "speak has no option --txt; did you mean --text?"},
       {{"render", "a.fap", "--haed", "man"}, "render has no option --haed; did you mean --head?"},
+      // As FFmpeg and other programs call them.
+      {{"speak", "Hi", "--fps", "30"}, "speak has no option --fps; did you mean --rate?"},
+      {{"speak", "Hi", "--bitrate=3"}, "speak has no option --bitrate; did you mean --kbps?"},
+      {{"speak", "Hi", "--emotion", "joy"}, "speak has no option --emotion; did you mean --mood?"},
+      {{"edit", "a.mp4", "--ss", "3"}, "edit has no option --ss; did you mean --from?"},
+      {{"render", "a.fap", "--width", "64"}, "render has no option --width; did you mean --size?"},
       {{"--hepl"}, "animeme has no option --hepl; did you mean --help?"},
       {{"speak", "--hepl"}, "speak has no option --hepl; did you mean --help?"},
       {{"help", "speek"}, "there is no command \"speek\"; did you mean speak?"},

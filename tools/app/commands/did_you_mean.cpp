@@ -1,12 +1,27 @@
 #include "tools/app/commands/did_you_mean.h"
 
 #include <algorithm>
+#include <array>
 #include <string_view>
+#include <utility>
 
 namespace animeme::tools {
 namespace {
 
 constexpr std::size_t kLongest = 64;  // of what is looked at
+
+// What other programs call an option, FFmpeg, Praat and 3D packages among them, and what it is
+// called here.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 24> kElsewhere = {{
+    {"--fps", "--rate"},        {"--framerate", "--rate"},  {"--frame-rate", "--rate"},
+    {"--bitrate", "--kbps"},    {"--bit-rate", "--kbps"},   {"--language", "--lang"},
+    {"--locale", "--lang"},     {"--voice", "--lang"},      {"--emotion", "--mood"},
+    {"--expression", "--mood"}, {"--gaze", "--look"},       {"--look-at", "--look"},
+    {"--start", "--from"},      {"--begin", "--from"},      {"--ss", "--from"},
+    {"--end", "--to"},          {"--resolution", "--size"}, {"--width", "--size"},
+    {"--height", "--size"},     {"--avatar", "--head"},     {"--character", "--head"},
+    {"--bg", "--background"},   {"--camera", "--view"},     {"--intensity", "--style"},
+}};
 
 // Fewest single steps from one word to the other, a swap of neighbours being one.
 std::size_t steps_between(std::string_view a, std::string_view b) {
@@ -39,6 +54,16 @@ void add_option_names(const OptionTable& table, std::vector<std::string>& names)
       if (name.text.starts_with("--")) names.push_back(name.text);
     }
   }
+}
+
+// The option that another program calls `typed`, else the one that is spelt most alike.
+std::string meant_by(const std::string& typed, const std::vector<std::string>& options) {
+  for (const auto& [elsewhere, here] : kElsewhere) {
+    if (typed != elsewhere) continue;
+    const auto found = std::find(options.begin(), options.end(), here);
+    if (found != options.end()) return *found;
+  }
+  return nearest_name(typed, options);
 }
 
 std::string question(const std::string& nearest) {
@@ -82,7 +107,7 @@ std::string did_you_mean(const OptionTable& program, std::span<const char* const
     if (!text.starts_with("--")) continue;
     const std::string option(text.substr(0, text.find('=')));
     if (std::find(options.begin(), options.end(), option) != options.end()) continue;
-    return table->name + " has no option " + option + question(nearest_name(option, options));
+    return table->name + " has no option " + option + question(meant_by(option, options));
   }
   return {};
 }
