@@ -54,6 +54,13 @@ TEST(TimeUnits, NobodySaysAWordForMinutes) {
   EXPECT_EQ(read("0 1600 b\n1600 3200 aa\n"), "b 0-100 aa 100-200");
   EXPECT_THAT(note(R"([{"word": "a", "start": 0.5, "end": 40.2}])"), HasSubstr("words@1000"));
   EXPECT_TRUE(read_labels("0 2 aa\n2 4 b\n")->notes.empty());
+  // The usual word counts, not those in the middle that are held.
+  std::string held;
+  for (int i = 0; i < 40; ++i) {
+    const bool is_long = i >= 15 && i < 26;
+    held += std::to_string(60 * i) + " " + std::to_string(60 * i + (is_long ? 59 : 1)) + " oh\n";
+  }
+  EXPECT_TRUE(read_labels(held)->notes.empty());
 }
 
 // WhisperX gives no times to what it cannot align: numbers, for the most part.
