@@ -15,6 +15,7 @@ writeFileSync(join(dir, 'package.json'), '{"type": "module"}');
 const {Mp4Reader} = await import(join(dir, 'src/mp4.js'));
 const {readPlaylist} = await import(join(dir, 'src/hls.js'));
 const {readHello, readUnit} = await import(join(dir, 'src/live.js'));
+const {addWord} = await import(join(dir, 'src/languages.js'));
 const {soundCodec} = await import(join(dir, 'src/movie.js'));
 const {Track} = await import(join(dir, 'src/track.js'));
 
@@ -181,4 +182,19 @@ test('messages of servers', () => {
     const unit = refused(() => readUnit(bytes, 1 + random(1000)));
     assert.ok(!unit || Number.isFinite(unit.time));
   }
+});
+
+test('words of any script become lines', () => {
+  const line = (words) => {
+    const lines = [];
+    words.forEach((text, i) => addWord(lines, {start: i / 4, end: i / 4 + 0.2, text}));
+    return lines.map(({text}) => text);
+  };
+  assert.deepEqual(line(['Hello,', 'there.', 'Yes']), ['Hello, there.', 'Yes']);
+  assert.deepEqual(line(['我', '是，', '人。']), ['我是，人。']);
+  assert.deepEqual(line(['ฉัน', 'รัก']), ['ฉันรัก']);
+  assert.deepEqual(line(['한국', '사람']), ['한국 사람']);
+  assert.deepEqual(line(['Hi,', '你']), ['Hi, 你']);
+  assert.deepEqual(line(['我', 'love', '你']), ['我 love 你']);
+  assert.deepEqual(line(['', '你']).length, 1);
 });

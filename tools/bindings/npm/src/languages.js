@@ -3,6 +3,12 @@
 const kLongestLine = 42;  // letters
 const kPause = 0.6;  // seconds, behind which a line begins
 
+// Letters of scripts without blanks between words: Chinese, Japanese, Thai, Lao, Burmese, Khmer.
+const kWithoutBlanks =
+    '\\p{sc=Han}\\p{sc=Hira}\\p{sc=Kana}\\p{sc=Thai}\\p{sc=Laoo}\\p{sc=Mymr}\\p{sc=Khmr}';
+const kJoined = new RegExp(
+    `[${kWithoutBlanks}\\u3000-\\u303f\\uff00-\\uffef]\n[${kWithoutBlanks}]`, 'u');
+
 /** Whether a tag is what is wanted, or a narrower one: `pt` is also `pt-BR`. */
 export function speaks(wanted, tag) {
   const [a, b] = [wanted.toLowerCase(), tag.toLowerCase()];
@@ -22,7 +28,7 @@ export function addWord(lines, {start, end, text}) {
   if (!goes) {
     lines.push({start, end, text});
   } else {
-    line.text += ` ${text}`;
+    line.text += (kJoined.test(`${line.text.at(-1)}\n${text}`) ? '' : ' ') + text;
     line.end = end;
   }
 }

@@ -6,6 +6,9 @@ class Captions {
   static late = 0.8;
   static pause = 1.2;
   static longest = 64;
+  // Chinese, Japanese, Thai, Lao, Burmese and Khmer are written without blanks.
+  static joined =
+      /^[\p{sc=Han}\p{sc=Hira}\p{sc=Kana}\p{sc=Thai}\p{sc=Laoo}\p{sc=Mymr}\p{sc=Khmr}]/u;
 
   constructor(element) {
     this.element = element;
@@ -37,9 +40,7 @@ class Captions {
     for (const each of shown?.words ?? []) {
       const part = document.createElement(each === spoken ? 'b' : 'span');
       part.textContent = each.word;
-      // Chinese and Japanese are written without blanks.
-      const joined = /^[\u3040-\u30ff\u3400-\u9fff]/.test(each.word);
-      parts.push(parts.length && !joined ? ' ' : '', part);
+      parts.push(parts.length && !Captions.joined.test(each.word) ? ' ' : '', part);
     }
     this.element.replaceChildren(...parts);
   }
