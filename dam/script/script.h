@@ -122,7 +122,7 @@ struct ScriptNote {
     milliseconds,  ///< times were taken for milliseconds
     long_labels,   ///< words last so long that their times may be in another unit
     counts,        ///< a TextGrid holds more or less than it says
-    given_times,   ///< words without times got some, between those of their neighbours
+    given_times,   ///< words without times, or with an end before their start, got some
     odd_bytes,     ///< bytes that are not UTF-8 in a text that is
   };
   Kind kind = Kind::marks;  ///< what was done
@@ -141,10 +141,12 @@ struct ScriptNote {
 /// is one of the 41 of dam/script/phones.h. SIL has no word. An IPA label for which ARPAbet needs
 /// two phones ("ts") becomes two phones that share its time; one without a sound of its own (a lone
 /// length mark) lengthens the previous phone. Marks are silence, labels that take no time are left
-/// out, and words end where the next begin; `notes`, if not null, receives what was done of this.
+/// out, words end where the next begin, and those that end before they begin last as long as they
+/// take to say; `notes`, if not null, receives what was done of this.
 ///
 /// Errors, with line and column: syntax (unknown format, missing column or tier, an invalid number,
-/// phones that overlap by more than kTimeTolerance or run backwards, end < start, a negative time),
+/// phones that overlap by more than kTimeTolerance or run backwards, a phone with end < start, a
+/// negative time),
 /// not_found (unknown label; no such tier or recording), out_of_range (infinite times, beyond
 /// kMaxScriptSeconds), truncated (an empty file, or one that ends early), unsupported (a binary
 /// TextGrid; words without phones), invalid_argument (no such format, a rate that is not a number

@@ -157,6 +157,28 @@ void part_words(Timings& timings) {
   labels = std::move(kept);
 }
 
+// Words whose end is a slip of the pen, as subtitles have them, last as long as they take to say.
+void mend_ends(Timings& timings) {
+  constexpr double kSecondsOfByte = 0.07;
+  std::vector<double> starts;
+  for (TimedLabel& label : timings.labels) {
+    if (!label.is_word || !(label.end < label.start) || !std::isfinite(label.start)) continue;
+    if (starts.empty()) {
+      for (const TimedLabel& each : timings.labels) {
+        if (std::isfinite(each.start)) starts.push_back(each.start);
+      }
+      std::sort(starts.begin(), starts.end());
+    }
+    label.end = label.start + kSecondsOfByte * double(label.label.size());
+    const auto next = std::upper_bound(starts.begin(), starts.end(), label.start);
+    if (next != starts.end()) label.end = std::min(label.end, *next);
+    add_note(timings.notes, NoteKind::given_times,
+             in_quotes(label.label) + " ends before it begins; it gets the time that it takes to " +
+                 "say, until the next begins",
+             label.line);
+  }
+}
+
 bool is_whole(double value) { return value == std::floor(value); }
 
 // Nobody says a word for twenty seconds: numbers like that count milliseconds.
@@ -248,6 +270,7 @@ Result<void> finish_labels(Timings& timings, const ScriptOptions& options, TimeU
   drop_timeless(timings);
   if (!options.everyone) part_words(timings);
   if (options.rate == 0) check_unit(timings, unit);
+  mend_ends(timings);
   return {};
 }
 

@@ -225,6 +225,20 @@ TEST(Dub, ARecordedVoice) {
   EXPECT_GT(fs::file_size(dir / "said.wav"), fs::file_size(dir / "voice.wav") * 9 / 10);
 }
 
+// A slip of the pen in a subtitle does not take the language with it.
+TEST(Dub, ASubtitleThatEndsBeforeItBeginsIsSaidAndTold) {
+  const TempDir dir;
+  spill(dir / "de.srt",
+        cue(1, 0.3, 2, "Guten Morgen!") + cue(2, 3, 2.5, "Wer ist da?") + cue(3, 5, 6, "Niemand."));
+  spill(dir / "film.csv", "lang,subtitles\nde," + (dir / "de.srt") + "\n");
+  const auto told = json_of(dub_line(dir / "film.csv", dir / "out"));
+  EXPECT_EQ(told["languages"][0]["cues"], 3);
+  ASSERT_EQ(told["languages"][0]["warnings"].size(), 1u);
+  EXPECT_THAT(std::string(told["languages"][0]["warnings"][0]),
+              HasSubstr("line 6: \"Wer ist da?\" ends before it begins"));
+  EXPECT_THAT(test::slurp(dir / "out/report.html"), HasSubstr("ends before it begins"));
+}
+
 TEST(Dub, OnePartThatFails) {
   const TempDir dir;
   write_subtitles(dir);

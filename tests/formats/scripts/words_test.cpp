@@ -63,6 +63,26 @@ TEST(TimeUnits, NobodySaysAWordForMinutes) {
   EXPECT_TRUE(read_labels(held)->notes.empty());
 }
 
+// Subtitles whose end is a slip of the pen; phones of aligners are another matter.
+TEST(TimeUnits, AWordThatEndsBeforeItBeginsIsSaid) {
+  const std::string srt =
+      "1\n00:00:00,300 --> 00:00:02,000\nBom dia!\n\n"
+      "2\n00:00:03,000 --> 00:00:02,500\nErrado\n\n"
+      "3\n00:00:04,000 --> 00:00:05,000\nordem\n\n"
+      "4\n00:00:04,800 --> 00:00:00,900\nno fim\n";
+  EXPECT_EQ(read(srt), "Bom dia! 300-2000 Errado 3000-3420 ordem 4000-4800 no fim 4800-5220");
+  EXPECT_EQ(read("start\tend\tword\n0.5\t0.9\ta\n1\t0.2\tmother\n1.1\t1.5\tb\n"),
+            "a 500-900 mother 1000-1100 b 1100-1500");
+  const auto timings = read_labels(srt, {});
+  ASSERT_EQ(timings->notes.size(), 2u);  // the third one is cut
+  EXPECT_EQ(timings->notes[1].kind, dam::ScriptNote::Kind::given_times);
+  EXPECT_THAT(timings->notes[1].describe(), HasSubstr("line 6: \"Errado\" ends before it begins"));
+  EXPECT_EQ(timings->notes[1].count, 2u);
+  const auto phones = dam::read_script("0 0.1 b\n0.1 0.05 aa\n0.2 0.3 b\n");
+  ASSERT_FALSE(phones);
+  EXPECT_THAT(phones.error().message, HasSubstr("not after its start"));
+}
+
 // WhisperX gives no times to what it cannot align: numbers, for the most part.
 TEST(WordsWithoutTimes, AreSaidBetweenTheirNeighbours) {
   EXPECT_EQ(read(R"({"segments": [

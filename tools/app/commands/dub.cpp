@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <vector>
@@ -172,6 +173,10 @@ Result<Made> gather(const DubOptions& options, const batch::Settings& settings) 
       continue;
     }
     language.state = "made";
+    // Subtitles that are too long have columns of their own.
+    std::copy_if(
+        entry->warnings.begin(), entry->warnings.end(), std::back_inserter(language.warnings),
+        [](const std::string& warning) { return !warning.ends_with(" of its characters"); });
     for (const std::string& name : entry->outputs)
       if (!name.ends_with(dub::kReportEnding)) language.outputs.push_back(name);
     const auto told = read_json_file(out + "/" + track.id + std::string(dub::kReportEnding));
@@ -381,7 +386,10 @@ Result<int> run(const DubOptions& options) {
   fs::remove_all(stage, failed);
   if (no_film) return *no_film;
   if (options.json) print_json(*made, *ending, seconds);
-  for (const dub::LanguageRow& row : made->report.languages) say(language_text(row));
+  for (const dub::LanguageRow& row : made->report.languages) {
+    for (const std::string& warning : row.warnings) warn(row.id + ": " + warning);
+    say(language_text(row));
+  }
   if (!made->report.film.name.empty()) {
     say(out + "/" + options.film +
         format(": %zu tracks of faces, %llu bytes", made->tracks.size(),

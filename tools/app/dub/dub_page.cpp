@@ -88,6 +88,12 @@ std::string confidence_text(const std::optional<double>& confidence) {
   return confidence ? format("%.2f", *confidence) : "";
 }
 
+std::string state_text(const LanguageRow& row) {
+  std::string text = row.error.empty() ? row.state : row.state + ": " + row.error;
+  for (const std::string& warning : row.warnings) text += "; " + warning;
+  return text;
+}
+
 std::string languages_table(const DubReport& report) {
   std::string text =
       table_head("Each language, in the order of the table", {{"Language", false},
@@ -103,8 +109,10 @@ std::string languages_table(const DubReport& report) {
   for (const LanguageRow& row : report.languages) {
     const bool made = row.state == "made", timed = made && row.cues > 0;
     text += "<tr role=\"row\">" + row_name("Language", name_of(row));
-    text += text_cell("State", row.error.empty() ? row.state : row.state + ": " + row.error,
-                      row.error.empty() ? " class=\"s\"" : " class=\"bad w\"");
+    text += text_cell("State", state_text(row),
+                      !row.error.empty()     ? " class=\"bad w\""
+                      : row.warnings.empty() ? " class=\"s\""
+                                             : " class=\"w\"");
     text += number_cell("Subtitles", timed ? std::to_string(row.cues) : "");
     text += number_cell("Too long", timed ? std::to_string(row.late) : "");
     text += number_cell("Characters to cut", row.cut > 0 ? std::to_string(row.cut) : "");

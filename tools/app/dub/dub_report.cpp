@@ -71,6 +71,7 @@ Json language_json(const LanguageRow& row) {
   json["confidence"] = optional_json(row.confidence);
   json["closures"] = closures_json(row.closures);
   if (!row.error.empty()) json["error"] = row.error;
+  if (!row.warnings.empty()) json["warnings"] = row.warnings;
   return json;
 }
 

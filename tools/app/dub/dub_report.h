@@ -39,22 +39,23 @@ struct CueRow {
 
 /// A row of the table.
 struct LanguageRow {
-  std::string id;                    ///< of its files
-  std::string lang;                  ///< language tag
-  std::string speaker;               ///< empty: none
-  std::string state;                 ///< "made", "original" (kept as it is), "failed"
-  std::string error;                 ///< of a failed row
-  std::vector<std::string> outputs;  ///< files
-  double seconds = 0;                ///< of speech
-  std::size_t cues = 0;              ///< subtitles
-  std::size_t late = 0;              ///< of these, those that do not fit
-  std::size_t cut = 0;               ///< characters to cut in them
-  double most_late = 0;              ///< seconds
-  double slowest = 1;                ///< speed of a cue
-  double mean_speed = 1;             ///< over time
-  double fastest = 1;                ///< speed of a cue
-  std::optional<double> confidence;  ///< of a recorded voice, 0..1
-  CueClosures closures;              ///< of all of it
+  std::string id;                     ///< of its files
+  std::string lang;                   ///< language tag
+  std::string speaker;                ///< empty: none
+  std::string state;                  ///< "made", "original" (kept as it is), "failed"
+  std::string error;                  ///< of a failed row
+  std::vector<std::string> warnings;  ///< about its inputs
+  std::vector<std::string> outputs;   ///< files
+  double seconds = 0;                 ///< of speech
+  std::size_t cues = 0;               ///< subtitles
+  std::size_t late = 0;               ///< of these, those that do not fit
+  std::size_t cut = 0;                ///< characters to cut in them
+  double most_late = 0;               ///< seconds
+  double slowest = 1;                 ///< speed of a cue
+  double mean_speed = 1;              ///< over time
+  double fastest = 1;                 ///< speed of a cue
+  std::optional<double> confidence;   ///< of a recorded voice, 0..1
+  CueClosures closures;               ///< of all of it
 };
 
 /// The file with all languages.

@@ -243,11 +243,14 @@ class CueSpeaker {
   std::optional<std::size_t> cue_;  // which it is
 };
 
-Result<std::vector<Cue>> read_cues(const SpokenOptions& options) {
+Result<std::vector<Cue>> read_cues(const SpokenOptions& options, const tools::Log& log) {
   const Result<std::string> text = tools::read_text_file(options.script);
   if (!text) return text.error();
   const auto timings = scripts::read_labels(*text, options.script_reading);
   if (!timings) return timings.error().in_file(options.script);
+  for (const dam::ScriptNote& note : timings->notes) {
+    log.warn(options.script + ": " + note.describe());
+  }
   auto cues = cues_of(*timings);
   if (!cues) return cues.error().in_file(options.script);
   return cues;
@@ -286,7 +289,7 @@ void end_silently(voice::Speech& speech) {
 
 Result<Spoken> speak_cues(const SpokenOptions& options, const tools::Log& log) {
   tools::AtStep step(tools::Step::voice);
-  const auto cues = read_cues(options);
+  const auto cues = read_cues(options, log);
   if (!cues) return cues.error();
   CueSpeaker speaker(options, log);
   const auto say = [&](std::size_t cue, double speed) {
@@ -339,7 +342,7 @@ Result<Spoken> align_voice(const SpokenOptions& options, const tools::Log& log) 
 
 // A recording of what subtitles say.
 Result<Spoken> fit_recorded(const SpokenOptions& options, const tools::Log& log) {
-  const auto cues = read_cues(options);
+  const auto cues = read_cues(options, log);
   if (!cues) return cues.error();
   SpokenOptions aligning = options;
   aligning.sound_in_file = false;  // it is cut and stretched
