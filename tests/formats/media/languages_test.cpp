@@ -359,13 +359,23 @@ TEST(TrackLabels, LanguagesAreInStepAfterAnHour) {
 
 TEST(TrackLabels, AreParsed) {
   EXPECT_EQ(parse_track_labels("lang=de").value(), labels("de", ""));
+  EXPECT_EQ(parse_track_labels("lang=pt_BR").value(), labels("pt-BR", ""));
   EXPECT_EQ(parse_track_labels("speaker=Ann Lee,lang=pt-BR").value(),
             labels("pt-BR", "", "Ann Lee"));
   EXPECT_EQ(parse_track_labels("speaker=Lee\\, Ann\\\\x\\y,lang=fr").value(),
             labels("fr", "", "Lee, Ann\\x\\y"));
-  for (const char* wrong : {"", "de", "lang=", "lang=d", "lang=de-", "lang=de_AT", "language=de",
+  for (const char* wrong : {"", "de", "lang=", "lang=d", "lang=de-", "lang=de_", "language=de",
                             "lang=de,,speaker=A", "speaker=", "lang=de,", ",", ",lang=de", ",,"}) {
     EXPECT_EQ(parse_track_labels(wrong).error().code, Code::invalid_argument) << wrong;
+  }
+}
+
+TEST(TrackLabels, OfThreeLettersAreThoseOfTwo) {
+  const TrackLabels german = labels("de-AT", "deu"), untagged = labels("", "deu");
+  for (const TrackLabels& wanted : {labels("de", "deu"), labels("deu", "deu")}) {
+    EXPECT_TRUE(is_wanted(wanted, german)) << wanted.language;
+    EXPECT_TRUE(is_wanted(wanted, untagged)) << wanted.language;
+    EXPECT_FALSE(is_wanted(wanted, labels("fr", "fra"))) << wanted.language;
   }
 }
 

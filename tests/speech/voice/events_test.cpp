@@ -102,6 +102,11 @@ TEST(VoiceChoice, NamesTheNearest) {
   EXPECT_EQ(choose_voices("no", lists)->voices.front().identifier, "gmq/nb");
   EXPECT_EQ(choose_voices("en", lists)->voices.front().identifier, "gmw/en-US");
   EXPECT_EQ(choose_voices("en-us+F3", lists)->voices.front().identifier, "gmw/en-US+f3");
+  // Three letters, as media files have them.
+  for (const char* code : {"fra", "fre", "FRA"}) {
+    EXPECT_EQ(choose_voices(code, lists)->voices.front().identifier, "roa/fr") << code;
+  }
+  EXPECT_EQ(choose_voices("eng", lists)->voices.front().identifier, "gmw/en-US");
   const auto unknown = choose_voices("germ", lists);
   ASSERT_FALSE(unknown);
   EXPECT_NE(unknown.error().message.find("nearest are de (German)"), std::string::npos);

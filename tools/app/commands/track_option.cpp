@@ -1,6 +1,8 @@
 #include "tools/app/commands/track_option.h"
 
+#include "fap/detail/text_scanner.h"
 #include "tools/app/commands/options.h"
+#include "tools/formats/common/language_codes.h"
 #include "tools/speech/text/unicode.h"
 
 namespace animeme::tools {
@@ -10,7 +12,9 @@ Result<media::TrackLabels> read_track_labels(const std::string& text) {
   auto labels = media::parse_track_labels(text);
   if (!labels) return labels;
   if (!labels->language.empty()) {
-    labels->code = text::language_code(labels->language);
+    const bool is_code = labels->language.size() == 3;
+    labels->code = is_code ? terminological_code(fap::detail::lower_case(labels->language))
+                           : text::language_code(labels->language);
     if (labels->code == "und") labels->code.clear();
   }
   return labels;

@@ -53,7 +53,9 @@ std::string part_of_name(std::string_view text) {
 }
 
 std::string language_tag(std::string_view lang) {
-  return std::string(lang.substr(0, lang.find('+')));
+  std::string tag(lang.substr(0, lang.find('+')));
+  std::replace(tag.begin(), tag.end(), '_', '-');  // of locales: "pt_BR"
+  return tag;
 }
 
 // Whether subtitles tell who speaks. Those that cannot be read do not: their row will fail.

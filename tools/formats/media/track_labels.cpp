@@ -74,8 +74,10 @@ Result<TrackLabels> parse_track_labels(std::string_view text) {
     const std::string value = equals == std::string::npos ? "" : one.substr(equals + 1);
     if (value.empty()) return wrong("'" + one + "' is no label of a track");
     if (name == "lang") {
-      if (!is_language_tag(value)) return wrong("'" + value + "' is no language tag");
-      labels.language = value;
+      std::string tag = value;  // locales are written with underscores: "pt_BR"
+      std::replace(tag.begin(), tag.end(), '_', '-');
+      if (!is_language_tag(tag)) return wrong("'" + value + "' is no language tag");
+      labels.language = std::move(tag);
     } else if (name == "speaker") {
       if (value.size() > kLongestSpeakerLabel) return wrong("the name of a speaker is too long");
       labels.speaker = value;
@@ -91,7 +93,9 @@ bool is_wanted(const TrackLabels& wanted, const TrackLabels& track) {
   if (wanted.language.empty()) return true;
   if (!track.language.empty()) {
     // A track may say "deu" where "de" is asked for.
+    const bool is_code = wanted.language.size() == 3 && !track.code.empty();
     return includes(wanted.language, track.language) ||
+           (is_code && same_letters(wanted.code, track.code)) ||
            (!wanted.code.empty() && wanted.language.find('-') == std::string::npos &&
             includes(wanted.code, track.language));
   }

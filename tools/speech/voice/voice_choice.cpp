@@ -3,6 +3,9 @@
 #include <algorithm>
 
 #include "dam/script/script_text_internal.h"
+#include "tools/formats/common/language_codes.h"
+#include "tools/speech/text/passages.h"
+#include "tools/speech/text/unicode.h"
 
 namespace animeme::voice {
 namespace {
@@ -32,6 +35,14 @@ const VoiceInfo* find_exactly(const std::string& wanted, const std::vector<Voice
   });
 }
 
+// "de" for "deu"; empty: no voice has that language.
+std::string language_of_code(const std::string& code, const std::vector<VoiceInfo>& voices) {
+  const auto found = std::find_if(voices.begin(), voices.end(), [&](const VoiceInfo& voice) {
+    return text::language_code(voice.language) == code;
+  });
+  return found == voices.end() ? std::string() : text::main_language(found->language);
+}
+
 const VoiceInfo* find_voice(std::string wanted, const std::vector<VoiceInfo>& voices) {
   std::replace(wanted.begin(), wanted.end(), '_', '-');
   for (;;) {
@@ -39,9 +50,12 @@ const VoiceInfo* find_voice(std::string wanted, const std::vector<VoiceInfo>& vo
     if (american != nullptr) return american;
     if (const VoiceInfo* voice = find_exactly(wanted, voices)) return voice;
     const std::size_t dash = wanted.rfind('-');  // "de-at": try "de"
-    if (dash == std::string::npos) return nullptr;
+    if (dash == std::string::npos) break;
     wanted.resize(dash);
   }
+  if (wanted.size() != 3) return nullptr;
+  const std::string main = language_of_code(tools::terminological_code(wanted), voices);
+  return main.empty() || main == wanted ? nullptr : find_voice(main, voices);
 }
 
 std::size_t common_prefix(std::string_view a, std::string_view b) {

@@ -9,16 +9,12 @@
 #include <span>
 #include <vector>
 
+#include "tools/formats/common/language_codes.h"
 #include "tools/formats/media/detail/ffmpeg/output_stream.h"
 #include "tools/formats/media/text_track.h"
 
 namespace animeme::media {
 namespace {
-
-constexpr std::array<std::string_view, 20> kBothCodes = {
-    "sqialb", "hyearm", "eusbaq", "myabur", "zhochi", "cescze", "nlddut",
-    "frafre", "katgeo", "deuger", "ellgre", "islice", "mkdmac", "mrimao",
-    "msamay", "fasper", "ronrum", "slkslo", "bodtib", "cymwel"};
 
 // In front of the language of phones.
 constexpr std::string_view kNoLanguage = "zxx-x-";
@@ -148,20 +144,6 @@ std::string stream_tag(const AVStream& stream, const char* key) {
 
 }  // namespace
 
-std::string bibliographic_code(const std::string& code) {
-  for (const std::string_view both : kBothCodes) {
-    if (both.substr(0, 3) == code) return std::string(both.substr(3));
-  }
-  return code;
-}
-
-std::string terminological_code(const std::string& code) {
-  for (const std::string_view both : kBothCodes) {
-    if (both.substr(3) == code) return std::string(both.substr(0, 3));
-  }
-  return code;
-}
-
 std::string name_with_speaker(std::string_view name, std::string_view speaker) {
   if (speaker.empty()) return std::string(name);
   return std::string(name) + " (" + std::string(speaker) + ")";
@@ -251,7 +233,7 @@ TrackLabels labels_of(const AVStream& stream, const std::string& tag) {
   labels.language = tag.starts_with(kNoLanguage) ? tag.substr(kNoLanguage.size()) : tag;
   if (!language.empty() && language != "und") {
     if (language.size() == 3) {
-      labels.code = terminological_code(language);
+      labels.code = tools::terminological_code(language);
     } else if (labels.language.empty() && is_language_tag(language)) {
       labels.language = language;
     }

@@ -14,11 +14,6 @@
 
 namespace animeme::media {
 
-/// Matroska has the bibliographic codes of ISO 639-2 where there are two: "ger" for "deu".
-std::string bibliographic_code(const std::string& code);
-/// The other way round.
-std::string terminological_code(const std::string& code);
-
 /// The tag of a text in `code` that goes with speech of language `tag`: "zxx-x-de" for phones,
 /// which have no language.
 std::string tag_of_text(std::string_view code, const std::string& tag);
