@@ -16,7 +16,7 @@ import sys
 import threading
 import time
 
-from client import Server, Socket, ask, free_port
+from client import Server, Socket, ask, free_port, until
 
 PROGRAM = sys.argv[1]
 SECONDS = float(sys.argv[2]) if len(sys.argv) > 2 else 60
@@ -135,6 +135,14 @@ def memory(process):
         return int(file.read().split()[1]) * os.sysconf("SC_PAGESIZE") / 1e6
 
 
+def late_planes(server):
+    """Planes of a process, and how many of them came more than 0.1 s late."""
+    text = until(lambda: server.ask("/metrics", timeout=60)[1])  # a busy machine may drop it
+    values = dict(line.rsplit(" ", 1) for line in text.splitlines() if not line.startswith("#"))
+    planes = float(values["animeme_late_seconds_count"])
+    return planes, planes - float(values['animeme_late_seconds_bucket{le="0.1"}'])
+
+
 def main():
     port = free_port()
     arguments = ("--max-heads", str(HEADS + 5), "--drain", "5")
@@ -144,6 +152,8 @@ def main():
     owners = [Owner(f"head{i}", port, i) for i in range(HEADS)]
     viewers = [Viewer(f"head{i}", port) for i in range(0, HEADS, 3)]
     health, sizes, codes, begun = [], [], [], time.monotonic()
+    processes, late = [], []  # memory of each process after 10 s and at its end; late_planes()
+    since = begun
     next_deploy = SECONDS / (REDEPLOYS + 1)
     deployed = 0
     try:
@@ -157,15 +167,26 @@ def main():
                 pass  # between two processes
             time.sleep(0.1)
             sizes.append(memory(server.process.pid))
+            if len(processes) <= deployed and time.monotonic() - since > 10:
+                processes.append([sizes[-1]])
             back = all(len(viewer.away) >= deployed for viewer in viewers)
             if deployed < REDEPLOYS and back and time.monotonic() - begun > next_deploy * (deployed
                 + 1):
+                late.append(late_planes(server))
+                if len(processes) <= deployed:
+                    processes.append([])
+                processes[-1].append(memory(server.process.pid))
                 codes.append(server.end(signal.SIGTERM)[0])
                 server = Server(PROGRAM, *arguments, port=port)
+                since = time.monotonic()
                 deployed += 1
         end = time.monotonic() + 90
         while time.monotonic() < end and any(len(viewer.away) < deployed for viewer in viewers):
             time.sleep(0.2)
+        late.append(late_planes(server))
+        if len(processes) <= deployed:
+            processes.append([])
+        processes[-1].append(memory(server.process.pid))
     finally:
         for process in load:
             process.kill()
@@ -185,6 +206,10 @@ def main():
           f"worst {1e3 * health[-1]:.1f} ms of {len(health)}")
     print(f"viewers were back after {[round(time, 2) for time in away[-5:]]} s at worst, {len(away)} times")
     print(f"memory: {sizes[0]:.0f} MB at first, {max(sizes):.0f} MB at most; codes {codes}")
+    print("memory of each process after 10 s and at its end: " +
+          "; ".join(", ".join(f"{size:.1f} MB" for size in one) for one in processes))
+    print("planes above 0.1 s late: " + "; ".join(f"{count:.0f} of {planes:.0f}"
+                                                 for planes, count in late))
     assert set(codes) == {0}, codes
     assert not problems, problems[:5]
     assert accepted > HEADS, accepted

@@ -31,10 +31,12 @@ web::WebOptions with_head(web::WebOptions options) {
   if (!options.make_peer_connections)
     options.make_peer_connections = [] { return webrtc::make_peer_connections(); };
   if (!options.head_script.empty()) return options;
-  const Result<head::Head> head = head::make_head();
-  if (!head) return options;  // it has a schematic face for that
   options.head_script = viewer::head_script();
-  options.head_model = viewer::pack_head(*head, head::make_rig(*head));
+  options.make_head_model = []() -> std::vector<std::uint8_t> {
+    const Result<head::Head> head = head::make_head();
+    if (!head) return {};  // the page has a schematic face for that
+    return viewer::pack_head(*head, head::make_rig(*head));
+  };
   return options;
 }
 

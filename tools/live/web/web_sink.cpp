@@ -346,7 +346,8 @@ Result<void> check(const WebOptions& options, int most_clients) {
     return invalid("a client needs at least 4096 bytes and some patience");
   }
   const auto has_none = [](const WebHead& head) { return head.model.empty(); };
-  if (options.head_script.empty() != options.head_model.empty() ||
+  const bool has_head = !options.head_model.empty() || options.make_head_model;
+  if (options.head_script.empty() == has_head ||
       (options.head_script.empty() && !options.other_heads.empty()) ||
       std::any_of(options.other_heads.begin(), options.other_heads.end(), has_none)) {
     return invalid("a head for the page needs its script and its model");
@@ -378,6 +379,7 @@ class SharedServer : public WebServer {
     address_.port = server_->port();
     options_.head_script.clear();  // the server has them
     options_.head_model.clear();
+    options_.make_head_model = nullptr;
     for (WebHead& head : options_.other_heads) head.model.clear();  // pages get their names only
   }
   std::string address() const override { return address_.text(); }

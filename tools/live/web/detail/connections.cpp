@@ -83,6 +83,7 @@ int Server::handle(lws* wsi, lws_callback_reasons reason, const char* in, std::s
     case LWS_CALLBACK_HTTP_WRITEABLE: {
       const auto session = sessions_.find(wsi);
       if (session == sessions_.end()) return 0;
+      if (session->second.late) return serve_late(session->second);
       if (session->second.reply) return write_reply(wsi, session->second);
       if (session->second.resource == Resource::whep) return whep_answer(wsi, session->second);
       return session->second.resource == Resource::talk ? write_message(wsi, session->second)
@@ -250,8 +251,19 @@ int Server::request(lws* wsi) {
 int Server::serve(lws* wsi, const Request& request, const Place& place) {
   const Resource resource = place.resource;
   Session session{.resource = resource, .broadcast = place.broadcast};
-  session.document =
-      resource == Resource::info ? place.broadcast->info() : documents_.at(place.path);
+  if (resource == Resource::info) {
+    session.document = place.broadcast->info();
+  } else {
+    const auto found = documents_.find(place.path);
+    if (found == documents_.end()) return refuse(wsi, request, HTTP_STATUS_NOT_FOUND);
+    session.document = found->second;
+  }
+  if (!session.document) {
+    session.late = [this, wsi, request, place] { return serve(wsi, request, place); };
+    sessions_[wsi] = std::move(session);
+    lws_set_timeout(wsi, NO_PENDING_TIMEOUT, 0);
+    return 0;
+  }
   const Document& document = *session.document;
   session.packed = !document.packed.empty() && takes_gzip(request.accept_encoding);
   const bool comes = resource == (may_watch_ ? Resource::info : Resource::page);
@@ -270,6 +282,14 @@ int Server::serve(lws* wsi, const Request& request, const Place& place) {
   sessions_[wsi] = std::move(session);
   lws_callback_on_writable(wsi);
   return 0;
+}
+
+/// What waits for the head is asked for again, when that is there or there is none.
+int Server::serve_late(Session& session) {
+  const auto found = documents_.find("/head.bin");
+  if (found != documents_.end() && !found->second) return 0;
+  const std::function<int()> again = std::exchange(session.late, nullptr);
+  return again();
 }
 
 int Server::talk(lws* wsi, const Request& request, const Place& place) {
@@ -393,6 +413,7 @@ void Server::look_at_news() {
   broadcasts.erase(std::unique(broadcasts.begin(), broadcasts.end()), broadcasts.end());
   for (const auto& broadcast : broadcasts) look_at(*broadcast, {});
   hand_out_answers();
+  take_late_head();
   std::vector<std::pair<std::shared_ptr<Exchange>, ServerReply>> given;
   {
     const std::lock_guard lock(answers_->mutex);

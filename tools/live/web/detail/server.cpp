@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include <chrono>
+#include <new>
 #include <system_error>
 #include <utility>
 
@@ -26,7 +27,7 @@ std::map<std::string, DocumentPtr> documents_of(const WebOptions& options) {
   if (!options.head_script.empty()) {
     head = "<script type=\"module\" src=\"head.js\"></script>\n";
     documents["/head.js"] = make_document(options.head_script + std::string(head_glue()));
-    documents["/head.bin"] = document_of(options.head_model);
+    documents["/head.bin"] = options.head_model.empty() ? nullptr : document_of(options.head_model);
     for (std::size_t i = 0; i < options.other_heads.size(); ++i) {
       documents["/heads/" + std::to_string(i + 1) + ".bin"] =
           document_of(options.other_heads[i].model);
@@ -98,7 +99,49 @@ void Server::finish_peers(bool over) {
   for (std::thread& goodbye : goodbyes) goodbye.join();
 }
 
+void Server::serve() {
+  service_.run();
+  if (!options_.make_head_model || !options_.head_model.empty()) return;
+  const auto make = [this] {
+    DocumentPtr made;
+    try {
+      const std::vector<std::uint8_t> model = options_.make_head_model();
+      made = model.empty() ? nullptr : document_of(model);
+    } catch (const std::bad_alloc&) {
+    }
+    {
+      const std::lock_guard lock(mutex_);
+      late_head_.emplace(std::move(made));
+    }
+    service_.wake();
+  };
+  try {
+    head_maker_ = std::thread(make);
+  } catch (const std::system_error&) {
+    make();
+  }
+}
+
+// The head that has been made meanwhile, for those who wait for it.
+void Server::take_late_head() {
+  std::optional<DocumentPtr> head;
+  {
+    const std::lock_guard lock(mutex_);
+    head.swap(late_head_);
+  }
+  if (!head) return;
+  if (*head) {
+    documents_["/head.bin"] = std::move(*head);
+  } else {
+    documents_.erase("/head.bin");
+  }
+  for (const auto& [wsi, session] : sessions_) {
+    if (session.late) lws_callback_on_writable(wsi);
+  }
+}
+
 void Server::stop() {
+  if (head_maker_.joinable()) head_maker_.join();
   finish_peers(true);  // they answer no more
   {
     const std::lock_guard lock(answers_->mutex);

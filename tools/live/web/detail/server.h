@@ -9,6 +9,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "fap/result.h"
@@ -53,6 +54,7 @@ struct Session {
   DocumentPtr document;  // that is being sent
   bool packed = false;   // in its form of gzip
   std::size_t at = 0;
+  std::function<int()> late;  // answers a request for a head that is still being made
   std::size_t received = 0;
   std::int64_t begin = -1;  // of /talk.mp4: time of its first segment, in samples
   // Of /whep: what was posted, by which number the answer comes, and who else may read it.
@@ -88,7 +90,7 @@ class Server {
   int port() const { return port_; }
   /// From now on clients are served, in a thread. The first of them is to find everything: who
   /// comes before waits.
-  void serve() { service_.run(); }
+  void serve();
 
   // All of these may be called from any thread.
   /// A broadcast without a path yet. `joined` may be empty.
@@ -136,6 +138,8 @@ class Server {
   int ask_handler(lws* wsi);
   int write_reply(lws* wsi, Session& session);
   int serve(lws* wsi, const Request& request, const Place& place);
+  int serve_late(Session& session);
+  void take_late_head();
   int talk(lws* wsi, const Request& request, const Place& place);
   int upgrade(lws* wsi);
   bool waits_for_peer_connections(lws* wsi) const;
@@ -164,9 +168,11 @@ class Server {
   const std::size_t most_message_;
   const std::function<bool(const ServerRequest&)> may_watch_;
   const OwnNames names_;
-  const std::string frames_;                      // where the page may be in a frame
-  std::map<std::string, DocumentPtr> documents_;  // by path, but for info.json
+  const std::string frames_;  // where the page may be in a frame
+  // By path, but for info.json. Null: it is still being made.
+  std::map<std::string, DocumentPtr> documents_;
   Service service_;
+  std::thread head_maker_;
   int port_ = 0;
   const std::shared_ptr<Answers> answers_ = std::make_shared<Answers>();
 
@@ -174,6 +180,7 @@ class Server {
   std::map<std::string, std::shared_ptr<Broadcast>, std::less<>> broadcasts_;
   std::vector<std::shared_ptr<Broadcast>> touched_;  // since the thread has looked
   bool finishing_ = false;
+  std::optional<DocumentPtr> late_head_;  // that has just been made; null: there is none
   std::map<std::uint64_t, PeerAnswer> peer_answers_;  // by ticket
 
   // Of the service thread alone.
