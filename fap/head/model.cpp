@@ -62,7 +62,8 @@ std::optional<Error> check(const HeadParameters& p) {
                {"brow_thickness", p.brow_thickness},
                {"ear", p.ear},
                {"lashes", p.lashes, true},
-               {"lines", p.lines, true}};
+               {"lines", p.lines, true},
+               {"freckles", p.freckles, true}};
   for (const auto& size : sizes) {
     const bool good = std::isfinite(size.value) &&
                       (size.may_be_zero ? size.value >= 0 : size.value > 0) && size.value < 100;

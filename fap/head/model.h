@@ -33,6 +33,12 @@ using Triangle = std::array<std::uint32_t, 3>;  ///< counterclockwise seen from 
 /// Built-in shading of a surface. Colours are those of the vertices.
 enum class SurfaceKind : std::uint8_t { skin, eye, teeth, wet, hair, cloth };
 
+/// The surface of skin below the size of triangles, at a vertex.
+struct Grain {
+  float relief = 0;  ///< strength of pores and small folds, 0..1; -1..0: of the lines of lips
+  float gloss = 1;   ///< strength of the highlight, 0..2
+};
+
 /// Triangles with a colour per vertex. The vectors of vertices have the same length.
 struct Mesh {
   std::vector<Vec3> positions;              ///< cm
@@ -40,6 +46,7 @@ struct Mesh {
   std::vector<Vec3> colours;                ///< linear RGB, 0..1
   std::vector<float> occlusion;             ///< ambient occlusion; 1: unoccluded
   SurfaceKind surface = SurfaceKind::skin;  ///< see SurfaceKind
+  std::vector<Grain> grain;                 ///< of vertices; empty: smooth
   /// How it is drawn if the head has materials, else empty. Facets are triangles of corners, in the
   /// order of `triangles`, followed by the mostly transparent triangles, which are drawn,
   /// but neither move nor shade anything.
@@ -223,6 +230,7 @@ struct HeadParameters {
   double ear = 1.3;                       ///< size
   double lashes = 0.36;                   ///< length
   double lines = 0;                       ///< of age, 0..1: folds beside nose and mouth, forehead
+  double freckles = 0;                    ///< 0..1, on nose and cheeks
   HairStyle hair = HairStyle::bob;        ///< see HairStyle
   Glasses glasses = Glasses::none;        ///< see Glasses
   Beard beard = Beard::none;              ///< see Beard
@@ -242,7 +250,7 @@ extern const std::array<std::string_view, 3> kHeadNames;
 
 /// Makes a head. Deterministic; about a second.
 /// Errors: invalid_argument if a size is not finite and positive (smile, nose_bridge, brow_ridge,
-/// lashes and lines may be 0), or the density is not in 0.5..2.
+/// lashes, lines and freckles may be 0), or the density is not in 0.5..2.
 Result<Head> make_head(const HeadParameters& parameters = {});
 
 }  // namespace animeme::head

@@ -72,6 +72,7 @@ HeadParameters child() {
   p.brow_thickness = 0.2;
   p.ear = 1.25;
   p.lashes = 0.26;
+  p.freckles = 0.55;
   p.skin_colour = 0xEDB796;
   p.lip_colour = 0xCE7468;
   p.cheek_colour = 0xE58A70;

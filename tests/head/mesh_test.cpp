@@ -47,6 +47,37 @@ TEST_P(EachHead, AllPartsAreClosed) {
   }
 }
 
+// Lips have lines, the skin around them pores; what is wet or oily shines.
+TEST_P(EachHead, SkinHasGrain) {
+  const Mesh& skin = head().part(Part::skin);
+  ASSERT_EQ(skin.grain.size(), skin.positions.size());
+  const auto at = [&](const char* id) { return skin.grain[head().point(id).vertex]; };
+  for (const char* lip : {"2.2", "2.3"}) EXPECT_LT(at(lip).relief, -0.9f) << lip;
+  for (const char* bare : {"9.3", "5.3", "5.4", "11.1"}) EXPECT_GT(at(bare).relief, 0.3f) << bare;
+  EXPECT_GT(at("9.3").gloss, 1.3f * at("5.3").gloss);
+  EXPECT_GT(at("9.3").gloss, 1.3f * at("10.7").gloss);
+  EXPECT_GT(at("2.3").gloss, 1.5f);
+}
+
+// Freckles are dark spots on nose and cheeks, and nowhere else.
+TEST(Freckles, AreOnNoseAndCheeks) {
+  head::HeadParameters parameters;
+  const Head plain = *head::make_head(parameters);
+  parameters.freckles = 1;
+  const Head spotted = *head::make_head(parameters);
+  const Mesh &before = plain.part(Part::skin), &after = spotted.part(Part::skin);
+  ASSERT_EQ(before.positions, after.positions);
+  int spots = 0, elsewhere = 0;
+  for (std::size_t v = 0; v < before.positions.size(); ++v) {
+    EXPECT_LE(after.colours[v].y, before.colours[v].y);
+    if (after.colours[v].y > 0.9f * before.colours[v].y) continue;
+    ++spots;
+    elsewhere += std::abs(before.positions[v].y + 2.8f) > 5 || before.positions[v].z < 3 ? 1 : 0;
+  }
+  EXPECT_GT(spots, 60);
+  EXPECT_EQ(elsewhere, 0);
+}
+
 // A closed mesh whose triangles look outwards has a positive volume.
 TEST_P(EachHead, PartsLookOutwards) {
   for (std::size_t part = 0; part < head::kPartCount; ++part) {

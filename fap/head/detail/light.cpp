@@ -9,7 +9,15 @@ EarVertices add_ears(const Shape& shape, Mesh& skin) {
   Mesh ear = make_left_ear(shape);
   const Vec3 base = linear_colour(shape.p.skin_colour);
   const Vec3 blush = linear_colour(shape.p.cheek_colour);
-  ear.colours.assign(ear.positions.size(), mix(base, blush, 0.35f));
+  // Light shines through where the ear is thin.
+  std::vector<Vec3> normals;
+  smooth_normals(ear.positions, ear.triangles, normals);
+  for (std::size_t i = 0; i < ear.positions.size(); ++i) {
+    const double below = ear_field(shape, Vec3d(ear.positions[i] - normals[i] * 0.45f));
+    const float thin = smooth_step(-0.30f, 0.0f, float(below));
+    const Vec3 red = blush * Vec3{1.05f, 0.74f, 0.68f};
+    ear.colours.push_back(mix(mix(base, blush, 0.3f), red, 0.25f + 0.45f * thin));
+  }
   ear.occlusion.assign(ear.positions.size(), 1.0f);
   const std::size_t triangles = skin.triangles.size();
   ears.left_first = std::uint32_t(skin.positions.size());
@@ -17,6 +25,7 @@ EarVertices add_ears(const Shape& shape, Mesh& skin) {
   ears.right_first = std::uint32_t(skin.positions.size());
   append_mirrored(skin, ears.left_first, triangles);
   ears.end = std::uint32_t(skin.positions.size());
+  skin.grain.resize(skin.positions.size(), {0.4f, 0.8f});
   return ears;
 }
 

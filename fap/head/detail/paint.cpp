@@ -11,6 +11,55 @@ float bump(double distance, double width) {
   return float(std::exp(-distance * distance / (width * width)));
 }
 
+// -1..1, smooth, over places in units of its size; not the same on both sides.
+float noise(Vec3d p) {
+  const Vec3d low{std::floor(p.x), std::floor(p.y), std::floor(p.z)};
+  const Vec3d t = p - low;
+  double sum = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const int dx = corner & 1, dy = corner >> 1 & 1, dz = corner >> 2;
+    const auto cell = [](double l, int d) { return std::uint32_t(std::int32_t(l) + d); };
+    std::uint32_t h = cell(low.x, dx) * 2654435761u + cell(low.y, dy) * 2246822519u +
+                      cell(low.z, dz) * 3266489917u;
+    h = (h ^ (h >> 15)) * 2246822519u;
+    h = (h ^ (h >> 13)) * 3266489917u;
+    const auto share = [](double u, int d) {
+      const double s = u * u * (3 - 2 * u);
+      return d != 0 ? s : 1 - s;
+    };
+    sum += (double(h >> 16 & 1023u) / 511.5 - 1) * share(t.x, dx) * share(t.y, dy) * share(t.z, dz);
+  }
+  return float(sum);
+}
+
+// Blood below, and pigment, are not the same everywhere.
+Vec3 mottled(Vec3 c, Vec3d p, float freckles) {
+  const float blood = 0.6f * noise(p * 0.55) + 0.4f * noise(p * 1.3 + Vec3d{9, 9, 9});
+  const float tan = 0.5f * noise(p * 0.35 + Vec3d{50, 0, 0}) + 0.5f * noise(p * 2.2);
+  c = c * Vec3{1 + 0.02f * blood, 1 - 0.085f * blood, 1 - 0.085f * blood} * (1 + 0.04f * tan);
+  if (freckles <= 0) return c;
+  const float spot = smooth_step(
+      0.3f, 0.55f, noise(p * 3.1 + Vec3d{0, 70, 0}) + 0.35f * noise(p * 1.1 + Vec3d{0, 0, 30}));
+  return mix(c, c * Vec3{0.74f, 0.55f, 0.45f}, freckles * spot);
+}
+
+// Pores are large on nose and cheeks, the neck has none; forehead, nose and chin shine.
+Grain grain_at(const HeadParameters& h, Vec3d p) {
+  const double x = std::abs(p.x);
+  const auto near = [&](double px, double py, double wide, double high) {
+    return bump(length(Vec3d{(x - px) / wide, (p.y - py) / high, 0}), 1) *
+           smooth_step(3.0f, 6.0f, float(p.z));
+  };
+  const float nose = near(0, -0.75 * h.nose_length, 1.2, 1.9);
+  const float forehead = near(0, h.brow_height + 2.3, 3.4, 2.4);
+  const float chin = near(0, 0.7 - h.chin_drop, 1.4, 1.2);
+  const float cheek = near(2.6, 0.3 - h.nose_length, 1.6, 1.6);
+  const float lids = near(h.eye_distance, 0, 1.9, 1.1);
+  const float face = smooth_step(-1.5f, 0.5f, float(p.y + h.chin_drop));
+  return {face * std::clamp(0.5f + 0.5f * nose + 0.4f * cheek + 0.2f * chin - 0.3f * lids, 0.0f, 1.0f),
+          std::clamp(0.75f + 0.55f * nose + 0.4f * forehead + 0.35f * chin, 0.0f, 2.0f)};
+}
+
 Vec3 face_colour(const Shape& shape, Vec3d p) {
   const Vec3 skin = linear_colour(shape.p.skin_colour);
   const Vec3 blush = linear_colour(shape.p.cheek_colour);
@@ -29,6 +78,9 @@ Vec3 face_colour(const Shape& shape, Vec3d p) {
                   smooth_step(-7.0, -3.0, p.y)));
   }
   c = c * float(1 - 0.32 * age_line(shape.p, p));
+  const double across = length(Vec3d{x / 4.6, (p.y + 0.8 * shape.p.nose_length) / 2.4, 0});
+  c = mottled(c, p,
+              float(shape.p.freckles) * bump(across, 1) * smooth_step(2.0f, 5.0f, float(p.z)));
   if (p.z < 3) return c;
   c = mix(c, blush, 0.55f * bump(length(Vec3d{x - 4.0, (p.y + 2.7) * 1.2, 0}), 1.7));
   c = mix(c, blush, 0.35f * bump(length(Vec3d{x, p.y + shape.p.nose_length, 0}), 0.9));
@@ -104,6 +156,7 @@ void paint_skin(const Shape& shape, Skin& skin) {
   Mesh& mesh = skin.mesh;
   mesh.colours.assign(skin.places.size(), kMouthInside);
   mesh.occlusion.assign(skin.places.size(), 1.0f);
+  mesh.grain.assign(skin.places.size(), Grain{});
   for (int row = 0; row < l.rows(); ++row) {
     for (int c = -l.back; c < l.back; ++c) {
       const std::uint32_t id = skin.at(row, c);
@@ -117,6 +170,10 @@ void paint_skin(const Shape& shape, Skin& skin) {
         colour = row == l.upper_lid ? Vec3{0.10f, 0.045f, 0.035f} : mix(colour, lip, 0.3f);
       }
       mesh.colours[id] = colour;
+      const Grain grain = grain_at(shape.p, skin.places[id]);
+      const float wet = smooth_step(0.3f, 0.9f, share);
+      mesh.grain[id] = {grain.relief * smooth_step(0.5f, 0.1f, share) - wet,
+                        grain.gloss + (1.7f - grain.gloss) * wet};
     }
   }
 }

@@ -69,6 +69,7 @@ struct Renderer::State {
   std::vector<std::vector<ScreenVertex>> vertices;  // by surface
   std::vector<Bins> bins;                           // by thread
   std::vector<detail::Tile> tiles;                  // by thread
+  detail::GrainTable grain;                         // as sharp as the last picture shows it
   std::atomic<int> next_tile = 0;                   // that no thread has taken yet
 
   void shade_part(const Scene& scene, const detail::View& view, int thread);
@@ -219,7 +220,9 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 const Image& Renderer::render(const Scene& scene, const Camera& camera) {
   State& s = *state_;
-  const detail::View view(camera, s.options.width, s.options.height);
+  detail::View view(camera, s.options.width, s.options.height);
+  s.grain.set(view.focus * detail::kGrainTexel / length(camera.eye - camera.target));
+  view.grain = &s.grain;
   s.vertices.resize(scene.surfaces.size());
   for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
     const Surface& surface = scene.surfaces[i];

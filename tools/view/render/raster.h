@@ -5,9 +5,10 @@
 ///     const animeme::render::Image& image = renderer.render(scene, camera);
 ///
 /// Four coverage samples and one colour sample per pixel; lighting is per vertex, but per pixel for
-/// eye highlights and for surfaces with materials. These blend as in browsers: in sRGB,
-/// back to front. The lights are fixed to the camera: a warm key from the upper right with a red
-/// terminator (light inside of skin), a cool fill from the left, a weak rim from behind.
+/// eye highlights and for surfaces with materials. Pores and the lines of lips are drawn per pixel.
+/// These blend as in browsers: in sRGB, back to front. The lights are fixed to the camera: a warm
+/// key from the upper right with a red terminator (light inside of skin), a cool fill from the
+/// left, a weak rim from behind.
 #pragma once
 
 #include <cstdint>
@@ -46,6 +47,8 @@ struct Surface {
   std::span<const std::uint16_t> facet_materials;  ///< of each facet, index of `materials`
   std::span<const head::Material> materials;       ///< see head::Head
   std::span<const head::Vec3> normals_at_rest;     ///< of vertices; corner normals rotate with them
+  std::span<const head::Grain> grain;              ///< of vertices, see head::Mesh; may be empty
+  std::span<const head::Vec3> positions_at_rest;   ///< of vertices, if they have grain
 };
 
 /// Surfaces to draw, with depth test.

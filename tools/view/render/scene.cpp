@@ -35,7 +35,7 @@ Scene scene_of(const head::Head& head, const head::Rig& rig, const head::Pose& p
                               moved ? pose.normals[i] : rig.parts[i].normals, mesh.colours,
                               mesh.occlusion, mesh.triangles, mesh.surface, pose.transforms[i],
                               mesh.facets, mesh.corners, mesh.materials, head.materials,
-                              rig.parts[i].normals});
+                              rig.parts[i].normals, mesh.grain, rig.parts[i].positions});
   }
   return scene;
 }

@@ -107,6 +107,7 @@ void all_fields(Archive& archive, Head& head) {
     archive(mesh.colours);
     archive(mesh.occlusion);
     archive(mesh.surface);
+    archive(mesh.grain);
   }
   archive(head.eyes);
   archive(head.feature_points);

@@ -42,6 +42,9 @@ Json write_part(const head::Mesh& mesh, std::string_view name, Bytes& out) {
     for (const Vec3 c : mesh.colours) out.u8(shown(axis(c, k)));
   }
   for (const float sky : mesh.occlusion) out.u8(rounded(sky * 255, 255));
+  part["grain"] = !mesh.grain.empty();
+  for (const head::Grain& g : mesh.grain) out.u8(rounded(127 * g.relief + 128, 255));
+  for (const head::Grain& g : mesh.grain) out.u8(rounded(127 * g.gloss, 255));
   if (Json facets = detail::write_facets(mesh, out); !facets.is_null()) {
     part["facets"] = std::move(facets);
   }
@@ -81,7 +84,7 @@ std::vector<std::uint8_t> pack_head(const head::Head& head, const head::Rig& rig
   for (std::size_t i = 0; i < head.parts.size(); ++i) {
     parts.push_back(write_part(head.parts[i], head::kPartNames[i], data));
   }
-  Json header{{"version", 4},
+  Json header{{"version", 5},
               {"name", head.name},
               {"rig", packed.size()},
               {"controls", head::kFirstShape + rig.shapes.size()},

@@ -1,5 +1,5 @@
 // node viewer_report.js KIND PAGE.html FOLDER: what Chromium makes of a page, as JSON; KIND is
-// looks|other|people|tracks|sound|speeds|texts|says|screens|axe|sheet|picture|live.
+// looks|other|people|tracks|sound|speeds|texts|says|screens|axe|sheet|picture|closeup|live.
 //
 // looks: vertices of the frames 0 .. 7 as 32-bit floats in FOLDER/<part>_<frame>.f32; how much the
 //   mouth and the forehead change between the frames 0 and 1; `specks` of these frames and of frame
@@ -28,7 +28,7 @@
 // sheet: a page of evaluate --report likewise: also `widths` that are left of the window beside the
 //   page, and what is `beyond` its edge.
 // picture: the canvas of frame 0, 20 degrees to the left, as R, G, B in FOLDER/picture.rgb; {width,
-// height}. live: `result` of a page with values of its own.
+// height}. closeup: the same at zoom 4. live: `result` of a page with values of its own.
 // All have `messages`: what the console said.
 'use strict';
 
@@ -382,9 +382,9 @@ async function screens(page, file, folder) {
   return report;
 }
 
-async function picture(page, file, folder) {
+async function picture(page, file, folder, zoom = 1) {
   await page.resize(500, 700);
-  await open(page, file, '?frame=0&mode=first&left=20&zoom=1');
+  await open(page, file, `?frame=0&mode=first&left=20&zoom=${zoom}`);
   await page.evaluate('window.animeme.draw()');
   const box = await page.evaluate(`(() => {
     const {left, top, width, height} = document.getElementById('picture').getBoundingClientRect();
@@ -403,6 +403,8 @@ async function picture(page, file, folder) {
   return {width, height};
 }
 
+const closeup = (page, file, folder) => picture(page, file, folder, 4);
+
 async function live(page, file) {
   await page.resize(300, 300);
   await page.goto(pathToFileURL(file).href);
@@ -414,7 +416,7 @@ async function main([kind, file, folder]) {
   try {
     const page = await browser.open();
     const report = await {looks, other, people, tracks, sound, speeds, texts, says, screens, axe,
-        sheet, picture, live}[kind](page, path.resolve(file), folder, open);
+        sheet, picture, closeup, live}[kind](page, path.resolve(file), folder, open);
     report.messages = page.messages;
     process.stdout.write(JSON.stringify(report) + '\n');
   } finally {

@@ -50,7 +50,7 @@ float power(float base, int squarings) {
 }
 
 float wrapped(float cosine, float wrap) {
-  const float v = std::max((cosine + wrap) / (1 + wrap), 0.0f);
+  const float v = std::max((cosine + wrap) * (1 / (1 + wrap)), 0.0f);
   return v * (0.35f + 0.65f * v);
 }
 
@@ -61,7 +61,8 @@ constexpr Vec3 kGround{0.26f, 0.22f, 0.20f};
 constexpr Vec3 kRim{0.85f, 0.92f, 1.0f};
 constexpr float kExposure = 0.62f;
 
-Vec3 lit(Vec3 n, Vec3 to_eye, Vec3 albedo, float sky, const Look& look, const View& view) {
+Vec3 lit(Vec3 n, Vec3 to_eye, Vec3 albedo, float sky, const Look& look, float gloss,
+         const View& view) {
   const float key = dot(n, view.key);
   const float fill = wrapped(dot(n, view.fill), 0.3f);
   const float up = 0.5f + 0.5f * n.y;
@@ -77,8 +78,9 @@ Vec3 lit(Vec3 n, Vec3 to_eye, Vec3 albedo, float sky, const Look& look, const Vi
   const float edge = 1 - facing;
   c += kRim * (look.rim * edge * edge * edge * std::max(dot(n, view.rim) + 0.25f, 0.0f) * sky);
   const float half = std::max(dot(n, normalised(view.key + to_eye)), 0.0f);
-  const Vec3 gloss = mix(Vec3{1, 1, 1}, albedo * 6.0f, look.tint);
-  c += kKey * gloss * (look.shine * power(half, look.sharpness) * key_sky * std::max(key, 0.0f));
+  const Vec3 tone = mix(Vec3{1, 1, 1}, albedo * 6.0f, look.tint);
+  c += kKey * tone *
+       (look.shine * gloss * power(half, look.sharpness) * key_sky * std::max(key, 0.0f));
   return c * kExposure;
 }
 
@@ -139,15 +141,24 @@ void shade(const Surface& surface, const View& view, std::size_t first, std::siz
            ScreenVertex* out) {
   const Look& look = kLooks[std::size_t(surface.kind)];
   const Vec3 gaze = surface.transform.turn({0, 0, 1});
+  const std::size_t count = surface.positions.size();
+  const bool grained = surface.grain.size() == count && surface.positions_at_rest.size() == count;
   for (std::size_t i = first; i < last; ++i) {
     const Vec3 place = surface.transform(surface.positions[i]);
     const Vec3 normal = surface.transform.turn(surface.normals[i]);
     const Vec3 from_eye = put(place, view, out[i]);
     ScreenVertex& v = out[i];
     v.normal = surface.kind == SurfaceKind::eye ? cornea(normal, gaze) : normal;
+    v.grain = 0;
     const Vec3 to_eye = normalised(Vec3{} - from_eye);
     if (dot(to_eye, normal) < -0.5f) continue;  // no triangle that is seen has such a corner
-    const Vec3 c = lit(normal, to_eye, surface.colours[i], surface.occlusion[i], look, view);
+    const head::Grain grain = grained ? surface.grain[i] : head::Grain{};
+    const Vec3 c =
+        lit(normal, to_eye, surface.colours[i], surface.occlusion[i], look, grain.gloss, view);
+    if (grained && view.grain->seen()) {
+      v.grain = kGrainStrength * grain.relief;
+      v.normal = view.grain->place(surface.positions_at_rest[i]);
+    }
     v.colour = {filmic(c.x), filmic(c.y), filmic(c.z)};
   }
 }

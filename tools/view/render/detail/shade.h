@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "tools/view/render/detail/grain.h"
 #include "tools/view/render/raster.h"
 
 namespace animeme::render::detail {
@@ -18,6 +19,7 @@ struct View {
   float focus;                      // pixels
   float middle_x, middle_y;         // pixels
   head::Vec3 key, fill, rim;        // towards the lights
+  const GrainTable* grain = nullptr;
 };
 
 struct ScreenVertex {
@@ -25,7 +27,8 @@ struct ScreenVertex {
   std::int32_t y = 0;
   float nearness = 0;  ///< 1/distance; <= 0: not visible
   head::Vec3 colour;   ///< 0..255, as shown
-  head::Vec3 normal;   ///< for highlights; not of length 1
+  head::Vec3 normal;   ///< for highlights; not of length 1; of skin with grain its place there
+  float grain = 0;     ///< its strength; negative: of lines
 };
 
 struct Corners {

@@ -9,9 +9,9 @@
 
 namespace animeme::render::detail {
 
-/// Vectors of the four samples of a pixel, by an extension that g++ and clang++ share.
-using F4 = float __attribute__((vector_size(16)));
-using I4 = std::int32_t __attribute__((vector_size(16)));
+/// Vectors of the four samples of a pixel.
+using F4 = Float4;
+using I4 = Int4;
 
 inline F4 splat(float v) { return F4{v, v, v, v}; }
 inline I4 splat(std::int32_t v) { return I4{v, v, v, v}; }

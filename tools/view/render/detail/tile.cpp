@@ -1,6 +1,7 @@
 #include "tools/view/render/detail/tile.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace animeme::render::detail {
 namespace {
@@ -90,8 +91,10 @@ struct Tile::Planes {
   bool eye;
   const View& view;
   bool ready = false;
+  float strength = 0;  // of the grain
+  bool lines = false;
   Plane colour{};
-  Plane normal{};
+  Plane normal{};  // or the place in the grain
 
   static constexpr bool kDraws = true;
   static constexpr bool over() { return false; }
@@ -105,6 +108,13 @@ struct Tile::Planes {
     if (eye) {
       normal = plane(frame, as_vector(a.normal), as_vector(b.normal), as_vector(c.normal));
     }
+    // Its strength changes little within a triangle.
+    const float mean = (a.grain + b.grain + c.grain) / 3;
+    constexpr float kLeast = 0.004f;  // less than a step of a colour
+    lines = mean < 0;
+    strength = std::abs(mean) > kLeast ? std::abs(mean) : 0;
+    if (strength > 0)
+      normal = plane(frame, as_vector(a.normal), as_vector(b.normal), as_vector(c.normal));
     ready = true;
   }
 
@@ -116,6 +126,7 @@ struct Tile::Planes {
       const head::Vec3 facing = normalised(head::Vec3{n[0], n[1], n[2]});
       shown = shown * splat(lid_shadow(facing)) + splat(eye_highlight(facing, view));
     }
+    if (strength > 0) shown = shown * splat(1 + strength * view.grain->at(normal(x, y), lines));
     return 1;
   }
 };
@@ -182,9 +193,11 @@ bool Tile::is_hidden(float nearest, int x0, int y0, int x1, int y1) const {
 }
 
 void Tile::draw(const Corners& corners, bool eye, const View& view) {
+  Box box;
+  if (!find_box(corners, box)) return;
   const ScreenFrame frame(corners);
   Planes planes{corners, frame, eye, view};
-  fill(corners, frame, planes);
+  fill(corners, frame, box, planes);
 }
 
 // Depth alone.
@@ -195,30 +208,41 @@ struct Tile::Cover {
 
 void Tile::cover(const MaterialFacet& facet) {
   Cover cover;
-  fill(facet.screen, ScreenFrame(facet.screen), cover);
+  Box box;
+  if (find_box(facet.screen, box)) fill(facet.screen, ScreenFrame(facet.screen), box, cover);
 }
 
 void Tile::draw(const MaterialFacet& facet, const View& view) {
+  Box box;
+  if (!find_box(facet.screen, box)) return;
   const ScreenFrame frame(facet.screen);
   MaterialPainter painter(facet, frame, view);
-  fill(facet.screen, frame, painter);
+  fill(facet.screen, frame, box, painter);
 }
 
-template <class Painter>
-void Tile::fill(const Corners& corners, const ScreenFrame& frame, Painter& painter) {
+bool Tile::find_box(const Corners& corners, Box& box) {
   const ScreenVertex& a = *corners.a;
   const ScreenVertex& b = *corners.b;
   const ScreenVertex& c = *corners.c;
   const auto first = [](std::int32_t low, int origin) { return std::max((low >> 4) - origin, 0); };
-  const int x0 = first(std::min({a.x, b.x, c.x}), x_);
-  const int y0 = first(std::min({a.y, b.y, c.y}), y_);
-  const int x1 = std::min((std::max({a.x, b.x, c.x}) >> 4) - x_, width_ - 1);
-  const int y1 = std::min((std::max({a.y, b.y, c.y}) >> 4) - y_, height_ - 1);
-  if (x0 > x1 || y0 > y1) return;
+  box = {first(std::min({a.x, b.x, c.x}), x_), first(std::min({a.y, b.y, c.y}), y_),
+         std::min((std::max({a.x, b.x, c.x}) >> 4) - x_, width_ - 1),
+         std::min((std::max({a.y, b.y, c.y}) >> 4) - y_, height_ - 1)};
+  if (box.x0 > box.x1 || box.y0 > box.y1) return false;
   // Between the corners nothing is nearer than the nearest of them, but for the last digits.
   const float nearest = std::max({a.nearness, b.nearness, c.nearness}) * 1.00001f;
-  if (is_hidden(nearest, x0, y0, x1, y1)) return;
+  if (is_hidden(nearest, box.x0, box.y0, box.x1, box.y1)) return false;
   if (++drawn_ == kLookEvery) look_how_near();
+  return true;
+}
+
+template <class Painter>
+void Tile::fill(const Corners& corners, const ScreenFrame& frame, const Box& box,
+                Painter& painter) {
+  const ScreenVertex& a = *corners.a;
+  const ScreenVertex& b = *corners.b;
+  const ScreenVertex& c = *corners.c;
+  const auto [x0, y0, x1, y1] = box;
   const std::int32_t left = (x_ + x0) * kSubpixels;
   const std::int32_t top = (y_ + y0) * kSubpixels;
   // On the screen, with y down, corners that were counterclockwise have a negative area.

@@ -32,8 +32,13 @@ class Tile {
   struct Planes;
   struct Cover;
   static Plane plane(const ScreenFrame& frame, F4 a, F4 b, F4 c);
+  // Pixels that a triangle may cover, both ends included.
+  struct Box {
+    int x0, y0, x1, y1;
+  };
+  bool find_box(const Corners& corners, Box& box);  // false: nothing of it is seen
   template <class Painter>
-  void fill(const Corners& corners, const ScreenFrame& frame, Painter& painter);
+  void fill(const Corners& corners, const ScreenFrame& frame, const Box& box, Painter& painter);
   template <class Painter>
   void fill_pixel(int index, const I4& inside, const F4& nearness, Painter& painter, float x,
                   float y);

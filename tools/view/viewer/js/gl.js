@@ -1,8 +1,11 @@
 // WebGL2: programs, one draw call for each part, or for each material of it.
+import {grainTexture} from './grain.js';
 import {Materials} from './materials.js';
 import {MATERIAL_FRAGMENT, MATERIAL_VERTEX} from './material_shaders.js';
 import {Mesh} from './mesh.js';
 import {HEAD_FRAGMENT, HEAD_VERTEX, LINE_FRAGMENT, LINE_VERTEX} from './shaders.js';
+
+const GRAIN_UNIT = 15;  // materials have the first ones
 
 function compile(gl, type, source) {
   const shader = gl.createShader(type);
@@ -44,6 +47,7 @@ export class Renderer {
     this.gl = gl;
     this.heads = new Program(gl, HEAD_VERTEX, HEAD_FRAGMENT);
     this.lines = new Program(gl, LINE_VERTEX, LINE_FRAGMENT);
+    grainTexture(gl, GRAIN_UNIT);
     this.materials = new Materials(gl, model, onNeed);
     if (model.materials) this.lit = new Program(gl, MATERIAL_VERTEX, MATERIAL_FRAGMENT);
     gl.enable(gl.CULL_FACE);
@@ -118,7 +122,9 @@ export class Renderer {
     for (const name of ['back', 'key', 'fill', 'rim']) gl.uniform3fv(heads.place(name), view[name]);
     gl.uniform4fv(heads.place('tint'), style.tint);
     gl.uniform1f(heads.place('opacity'), style.opacity);
+    gl.uniform1i(heads.place('grains'), GRAIN_UNIT);
     gl.vertexAttrib1f(3, -1);
+    gl.vertexAttrib2f(5, 128, 127);
     meshes.forEach((mesh, i) => {
       if (mesh.count === 0 || this.hasMaterial(mesh)) return;
       this.setPart(heads, rig.transforms[i]);

@@ -33,6 +33,10 @@ export class Mesh {
     this.places = this.attribute(0, part.positions, 3, gl.FLOAT, false, usage);
     this.normals = this.attribute(1, part.normals, 3, gl.FLOAT, false, usage);
     this.attribute(2, part.paint, 4, gl.UNSIGNED_BYTE, true, gl.STATIC_DRAW);
+    if (part.grain) {
+      this.attribute(4, part.positions, 3, gl.FLOAT, false, gl.STATIC_DRAW);  // at rest
+      this.attribute(5, part.grain, 2, gl.UNSIGNED_BYTE, false, gl.STATIC_DRAW);
+    }
     this.triangles = gl.createBuffer();
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.triangles);
     gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, part.triangles, gl.STATIC_DRAW);

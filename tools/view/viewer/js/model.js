@@ -12,6 +12,10 @@ function readPart(reader, info, {positions, normals, triangles, deforms}) {
   }
   const part = {name: info.name, surface: info.surface, positions, normals, paint, deforms,
     triangles: triangles.subarray(0, info.solid * 3)};
+  if (info.grain) {
+    part.grain = new Uint8Array(count * 2);  // relief and gloss side by side
+    for (let k = 0; k < 2; ++k) reader.u8(count).forEach((v, i) => { part.grain[i * 2 + k] = v; });
+  }
   if (info.facets) part.facets = readFacets(reader, info.facets, part);
   return part;
 }
@@ -58,7 +62,7 @@ function readFacets(reader, info, part) {
 export function readModel(bytes) {
   const reader = new ByteReader(bytes);
   const {header} = reader;
-  if (header.version !== 4) throw new Error(`unknown version ${header.version} of the head format`);
+  if (header.version !== 5) throw new Error(`unknown version ${header.version} of the head format`);
   const {rig, parts: shapes} = loadRig(reader.u8(header.rig), header.parts.length);
   const parts = header.parts.map((info, i) => readPart(reader, info, shapes[i]));
   const pictures = (header.pictures || []).map(({type, bytes: size}) =>

@@ -16,11 +16,17 @@ uniform mat4 view;
 export const HEAD_VERTEX = `${VERSION}${PLACE}
 layout(location = 2) in vec4 paint;
 layout(location = 3) in float heat;
+layout(location = 4) in vec3 rest;
+layout(location = 5) in vec2 skin;
+centroid out vec3 grain;
+centroid out vec2 rough;
 centroid out vec3 at;
 centroid out vec3 facing;
 centroid out vec3 albedo;
 centroid out float sky;
 centroid out float warmth;
+const mat3 GRAIN = mat3(0.8365, 0.1303, -0.5323, 0.0, 0.9713, 0.2377, 0.5480, -0.1988, 0.8125) /
+    0.512;
 vec3 linear(vec3 c) {
   return mix(pow((c + 0.055) / 1.055, vec3(2.4)), c / 12.92, vec3(lessThanEqual(c, vec3(0.04045))));
 }
@@ -30,11 +36,18 @@ void main() {
   albedo = linear(paint.rgb);
   sky = paint.a;
   warmth = heat;
+  // It lies oblique, so that no surface shows how it repeats.
+  grain = GRAIN * rest;
+  rough = (skin - vec2(128, 0)) / 127.0;
   gl_Position = view * vec4(at, 1);
 }`;
 
 export const HEAD_FRAGMENT = `${VERSION}
 precision highp float;
+precision highp sampler3D;
+centroid in vec3 grain;
+centroid in vec2 rough;
+uniform sampler3D grains;
 centroid in vec3 at;
 centroid in vec3 facing;
 centroid in vec3 albedo;
@@ -84,7 +97,7 @@ vec3 lit(vec3 n, vec3 surface) {
   c += RIM * (rimShare * edge * edge * edge * max(dot(n, rim) + 0.25, 0.0) * sky);
   float half_ = max(dot(n, normalize(key + toEye)), 0.0);
   vec3 shade = mix(vec3(1.0), surface * 6.0, gloss);
-  c += KEY * shade * (shine * power(half_, sharpness) * open * max(cosine, 0.0));
+  c += KEY * shade * (shine * rough.y * power(half_, sharpness) * open * max(cosine, 0.0));
   return c * 0.62;
 }
 vec3 heatColour(float t) {
@@ -97,6 +110,8 @@ void main() {
   vec3 shown = filmic(lit(n, surface));
   // The upper lid is between the eye and the light.
   if (eyeball) shown = shown * (1.0 - 0.4 * smoothstep(0.0, 0.42, n.y)) + highlight(n);
+  vec2 relief = (texture(grains, grain).rg * 255.0 - 128.0) / 128.0;
+  shown *= 1.0 + 0.09 * abs(rough.x) * (rough.x < 0.0 ? relief.y : relief.x);
   colour = vec4(clamp(shown, 0.0, 1.0), opacity);
 }`;
 
