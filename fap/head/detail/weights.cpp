@@ -61,6 +61,7 @@ constexpr float kCore = 0.3f;  // of anchors
 constexpr int kSmoothings = 2;
 constexpr float kSmoothCorners = 0.12f;  // cm, of what rounds the corners of the mouth
 constexpr float kRoundness = 0.85f;      // of open mouths: 1 is an ellipse
+constexpr float kDip = 0.06f;            // of the contact line of lips, against the opening
 constexpr float kBorderReach = 3.8f;     // cm: skin that follows a border of the lips
 // Halves of the borders of the lips, from the middle to the corner; see round_corners().
 struct RoundedHalf {
@@ -285,9 +286,9 @@ class Builder {
     }
   }
 
-  // Between the corner and the middle of a half, the border of an open mouth is an arc of an
-  // ellipse. What weights lack there is in columns of their own: it opens the mouth, but does not
-  // narrow or push it.
+  // Between the middles of its halves and its corners and middle, the border of an open mouth is an
+  // arc of an ellipse. What weights lack there is in columns of their own: it opens the mouth, but
+  // does not narrow or push it.
   void round_corners() {
     Weights wider(weights_.vertices(), kControls.size() + kRounded.size());
     for (std::size_t v = 0; v < weights_.vertices(); ++v) {
@@ -340,6 +341,7 @@ class Builder {
     const std::uint32_t at_corner = vertex_of(lip.corner), at_half = vertex_of(lip.half);
     if (at_corner == kMissing || at_half == kMissing) return;
     const auto inner = std::size_t(control_index(lip.inner_half));
+    const auto centre = std::size_t(control_index(lip.upper ? "2.2" : "2.3"));
     const float middle = head_.at(lip.middle).x;
     const float width = mesh_.positions[at_corner].x - middle;
     const auto along = [&](std::uint32_t v) { return (mesh_.positions[v].x - middle) / width; };
@@ -357,15 +359,26 @@ class Builder {
       const float lack = kRoundness * (arc - weights_.row(v)[inner]);
       lacks.push_back({t, std::max(lack, 0.0f)});
     }
-    std::sort(lacks.begin(), lacks.end(), [](const Lack& a, const Lack& b) { return a.t < b.t; });
     const float most =
         std::max_element(lacks.begin(), lacks.end(), [](const Lack& a, const Lack& b) {
           return a.lack < b.lack;
         })->lack;
+    // The same towards the middle, when both of them open as the ellipse does, and what fills the
+    // dip that the contact line has there.
+    const float at_start = std::sqrt(1 - start * start);
+    for (const std::uint32_t v : seam) {
+      const float t = along(v);
+      if (t < 0 || t >= start) continue;
+      const auto row = std::as_const(weights_).row(v);
+      const float lack = (std::sqrt(1 - t * t) - row[centre]) / at_start - row[inner];
+      const float dip = kDip * smooth_step(0.0f, 0.16f, t) * smooth_step(0.5f, 0.2f, t);
+      lacks.push_back({t, std::max(lack, 0.0f) + dip});
+    }
+    std::sort(lacks.begin(), lacks.end(), [](const Lack& a, const Lack& b) { return a.t < b.t; });
     for (std::uint32_t v = 0; v < mesh_.positions.size(); ++v) {
       const float away = here[v] / scale_;
       const float t = along(v);
-      if (away > kBorderReach || t <= start) continue;
+      if (away > kBorderReach || t <= 0) continue;
       // Past the corner skin belongs to both lips.
       const float own =
           smooth_step(-0.5f, 0.5f, (there[v] - here[v]) / std::max(there[v] + here[v], 1e-6f));
@@ -377,7 +390,7 @@ class Builder {
       }
       // The skin around the corner moves more gently than the edge of the lip.
       const float far = 0.8f * most * smooth_step(start, 0.85f, t) * smooth_step(1.5f, 0.85f, t);
-      const float lack = near + (far - near) * smooth_step(0.1f, 0.9f, away);
+      const float lack = t < start ? near : near + (far - near) * smooth_step(0.1f, 0.9f, away);
       corners.row(v)[column] = lack * own * lip.share(away);
     }
   }

@@ -39,7 +39,7 @@ TEST(PageGrain, LooksAsTheRendererDrawsIt) {
   const int width = report["width"], height = report["height"];
   const head::Pose pose = head::pose(h.rig, {});
   const render::RenderOptions options{.width = width, .height = height};
-  const render::Camera camera = render::look_at(h.head, 20, 0, 4);
+  const render::Camera camera = render::look_at(h.head, 20, 0, 9);
   render::Scene scene = render::scene_of(h.head, h.rig, pose);
   const render::Image fine = render::render(scene, camera, options);
   for (render::Surface& surface : scene.surfaces) surface.grain = {};

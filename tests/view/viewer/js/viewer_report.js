@@ -28,7 +28,7 @@
 // sheet: a page of evaluate --report likewise: also `widths` that are left of the window beside the
 //   page, and what is `beyond` its edge.
 // picture: the canvas of frame 0, 20 degrees to the left, as R, G, B in FOLDER/picture.rgb; {width,
-// height}. closeup: the same at zoom 4. live: `result` of a page with values of its own.
+// height}. closeup: the same at zoom 9. live: `result` of a page with values of its own.
 // All have `messages`: what the console said.
 'use strict';
 
@@ -403,7 +403,7 @@ async function picture(page, file, folder, zoom = 1) {
   return {width, height};
 }
 
-const closeup = (page, file, folder) => picture(page, file, folder, 4);
+const closeup = (page, file, folder) => picture(page, file, folder, 9);
 
 async function live(page, file) {
   await page.resize(300, 300);
