@@ -1,7 +1,5 @@
 #include "fap/head/detail/distance.h"
 
-#include <limits>
-
 namespace animeme::head::detail {
 
 double ellipsoid(Vec3d p, Vec3d radii) {
@@ -27,58 +25,63 @@ double smooth_min(double a, double b, double k) {
 
 double smooth_max(double a, double b, double k) { return -smooth_min(-a, -b, k); }
 
-namespace {
-
-double distance(const Primitive& body, Vec3d p) {
-  if (body.body == Body::cone) return cone(p, body.a, body.b, body.ra, body.rb);
-  return ellipsoid(p - body.a, body.b);
-}
-
-}  // namespace
-
 void Form::add(const Primitive& body) {
-  Reach reach{};
+  Part part{};
+  part.blend = body.blend;
+  part.sign = body.join == Join::add ? 1 : -1;
+  Vec3d inverse{1, 1, 1};
+  Vec3d middle = body.a;
   if (body.body == Body::cone) {
-    reach.middle = mix(body.a, body.b, 0.5);
-    reach.radius = 0.5 * length(body.b - body.a) + std::max(body.ra, body.rb);
+    part.a = body.a;
+    part.ab = body.b - body.a;
+    part.inverse_square = 1 / dot(part.ab, part.ab);
+    part.ra = body.ra;
+    part.widening = body.rb - body.ra;
+    middle = mix(body.a, body.b, 0.5);
+    part.start = 0.5 * length(part.ab) + std::max(body.ra, body.rb);
+    part.slope = 1;
   } else {
-    reach.inverse = {1 / body.b.x, 1 / body.b.y, 1 / body.b.z};
-    reach.inverse_least = std::max({reach.inverse.x, reach.inverse.y, reach.inverse.z});
+    part.is_ball = true;
+    inverse = {1 / body.b.x, 1 / body.b.y, 1 / body.b.z};
+    part.start = part.least = 1;
+    part.slope = std::max({inverse.x, inverse.y, inverse.z});
+    part.radius = std::min({body.b.x, body.b.y, body.b.z});
   }
-  primitives_.push_back(body);
-  reaches_.push_back(reach);
-}
-
-// True: distance() is `least` or more. A cone lies in its ball. For an ellipsoid let k0 and k1 be
-// the lengths of ellipsoid(): k1 <= k0 / its least radius, so from k0 >= 1 on the distance is not
-// below (k0 - 1) least radius.
-bool Form::beyond(const Primitive& body, const Reach& reach, Vec3d p, double least) {
-  constexpr double kRounding = 1e-9;
-  least += kRounding;
-  if (body.body == Body::cone) {
-    const Vec3d q = p - reach.middle;
-    const double far = least + reach.radius;
-    return far > 0 && dot(q, q) > far * far;
-  }
-  if (least < 0) return false;
-  const Vec3d q = p - body.a;
-  const Vec3d k{q.x * reach.inverse.x, q.y * reach.inverse.y, q.z * reach.inverse.z};
-  const double far = 1 + least * reach.inverse_least;
-  return dot(k, k) > far * far;
+  const double numbers[] = {middle.x, middle.y, middle.z, inverse.x, inverse.y, inverse.z};
+  for (std::size_t k = 0; k < 6; ++k) places_[k][parts_.size()] = numbers[k];
+  parts_.push_back(part);
 }
 
 double Form::operator()(Vec3d p) const {
   // Rounded, lest bodies beside the middle meet their mirror images in a crease.
-  constexpr double kRound = 0.28;
+  constexpr double kRound = 0.28, kRounding = 1e-9;
   p.x = std::sqrt(p.x * p.x + kRound * kRound);
-  double d = std::numeric_limits<double>::max();
-  for (std::size_t i = 0; i < primitives_.size(); ++i) {
-    const Primitive& body = primitives_[i];
-    const bool adds = body.join == Join::add;
+  const auto& [cx, cy, cz, ix, iy, iz] = places_;
+  std::array<double, kMostBodies> qx, qy, qz, squares;
+  for (std::size_t i = 0; i < kMostBodies; ++i) {
+    qx[i] = (p.x - cx[i]) * ix[i];
+    qy[i] = (p.y - cy[i]) * iy[i];
+    qz[i] = (p.z - cz[i]) * iz[i];
+    squares[i] = qx[i] * qx[i] + qy[i] * qy[i] + qz[i] * qz[i];
+  }
+  double d = 0;
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const Part& part = parts_[i];
     // Where two distances differ by the blend or more, smooth_min() is exactly the lesser one.
-    if (i > 0 && beyond(body, reaches_[i], p, (adds ? d : -d) + body.blend)) continue;
-    const double other = distance(body, p);
-    d = adds ? smooth_min(d, other, body.blend) : smooth_max(d, -other, body.blend);
+    const double far = part.start + (part.sign * d + part.blend + kRounding) * part.slope;
+    if (i > 0 && far > part.least && squares[i] > far * far) continue;
+    double other;
+    if (part.is_ball) {
+      // As ellipsoid().
+      const Vec3d b{qx[i] * ix[i], qy[i] * iy[i], qz[i] * iz[i]};
+      const double k0 = std::sqrt(squares[i]), k1 = length(b);
+      other = k1 < 1e-12 ? -part.radius : k0 * (k0 - 1) / k1;
+    } else {
+      const Vec3d q = p - part.a;
+      const double t = std::clamp(dot(q, part.ab) * part.inverse_square, 0.0, 1.0);
+      other = length(q - part.ab * t) - (part.ra + part.widening * t);
+    }
+    d = i == 0 ? other : part.sign * smooth_min(part.sign * d, other, part.blend);
   }
   return d;
 }

@@ -2,6 +2,7 @@
 // surface of balls and capsules and close to it for ellipsoids, which is all that is needed here.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "fap/head/vector.h"
@@ -44,19 +45,24 @@ class Form {
   double operator()(Vec3d p) const;
 
  private:
+  static constexpr std::size_t kMostBodies = 24;
+
   void add(const Primitive& body);
 
-  // Cheap lower bound of the distance to a body.
-  struct Reach {
-    Vec3d inverse;         // ellipsoid: of its radii
-    double inverse_least;  // ellipsoid: of the least of them
-    Vec3d middle;          // cone
-    double radius;         // cone: of a ball around all of it
+  // A body that is not needed is known by a cheap lower bound of its distance. A cone lies in its
+  // ball. For an ellipsoid let k0 and k1 be the lengths of ellipsoid(): k1 <= k0 / its least
+  // radius, so from k0 >= 1 on the distance is not below (k0 - 1) least radius.
+  struct Part {
+    bool is_ball;
+    double sign, blend;          // 1 adds, -1 takes away
+    double start, slope, least;  // of the bound: in units of places_, by the distance asked for
+    double radius;               // ellipsoid: the least one
+    Vec3d a, ab;                 // cone
+    double inverse_square, ra, widening;
   };
-  static bool beyond(const Primitive& body, const Reach& reach, Vec3d p, double least);
-
-  std::vector<Primitive> primitives_;
-  std::vector<Reach> reaches_;
+  // Middles, and the inverse of the radii of ellipsoids: a number of all bodies side by side.
+  std::array<std::array<double, kMostBodies>, 6> places_{};
+  std::vector<Part> parts_;
 };
 
 /// Direction away from the surface, by differences.
@@ -83,7 +89,13 @@ Vec3d outer_hit(const Field& field, Vec3d origin, Vec3d direction, double far) {
 /// Moves p to the surface along the gradient.
 template <class Field>
 Vec3d project(const Field& field, Vec3d p, int steps = 3) {
-  for (int i = 0; i < steps; ++i) p -= gradient(field, p) * field(p);
+  constexpr double h = 0.02;
+  for (int i = 0; i < steps; ++i) {
+    const double d = field(p);
+    p -= normalised(Vec3d{field(p + Vec3d{h, 0, 0}) - d, field(p + Vec3d{0, h, 0}) - d,
+                          field(p + Vec3d{0, 0, h}) - d}) *
+         d;
+  }
   return p;
 }
 
