@@ -1,8 +1,12 @@
+#include <numbers>
+
 #include "fap/head/detail/paint.h"
 #include "fap/head/detail/parts.h"
 
 namespace animeme::head::detail {
 namespace {
+
+constexpr double kCollarMiddle = -2.6;  // z
 
 // Into the ear's own axes: x outwards, y up, z to the back, in units of its size.
 Vec3d to_ear(const Shape& shape, Vec3d p) {
@@ -44,25 +48,58 @@ Mesh make_left_ear(const Shape& shape) {
                       0.155 * s / std::sqrt(shape.p.density));
 }
 
-double body_field(const Shape& shape, Vec3d p) {
-  p.y -= 9.8 - shape.p.chin_drop;  // the collar stays below the chin
-  const double x = std::abs(p.x);
-  const double n = shape.p.neck;
-  const Vec3d q{x, p.y, p.z};
+namespace {
+
+// Height of the collar's middle line, which is tilted, and its distance from the middle of the
+// neck.
+double collar_height(const Shape& shape, double z) {
+  return -3.9 - shape.p.chin_drop - 0.16 * (z - kCollarMiddle);
+}
+double collar_radius(const Shape& shape) { return shape.p.neck * 1.08 + 0.15; }
+
+// Shoulders, up to the collar.
+double shoulders(const Shape& shape, Vec3d p) {
+  const double n = shape.p.neck, above = 9.8 - shape.p.chin_drop;  // it stays below the chin
+  const Vec3d q{std::abs(p.x), p.y - above, p.z};
   double d = ellipsoid(q - Vec3d{0, -24, -3.4}, {n * 3.3, 8.2, 6.6});
   d = smooth_min(d, cone(q, {1.5, -15.6, -3.4}, {n * 2.9, -18.4, -3.6}, 2.9, 2.7), 2.6);
-  // A rolled collar that stands a little off the neck.
-  const Vec3d c = q - Vec3d{0, -13.7 - 0.16 * (p.z + 2.6), -2.6};
-  const double from_neck = std::hypot(c.x, c.z) - (n * 1.08 + 0.15);
-  const double collar = std::hypot(std::max(std::abs(c.y) - 0.5, 0.0), from_neck - 0.42) - 0.42;
-  d = smooth_min(d, smooth_max(from_neck - 0.5, c.y + 0.1, 0.2), 0.8);
-  return smooth_min(d, collar, 0.7);
+  const double from_neck = std::hypot(p.x, p.z - kCollarMiddle) - collar_radius(shape);
+  return smooth_min(d, smooth_max(from_neck - 0.5, p.y - collar_height(shape, p.z) + 0.1, 0.2),
+                    0.8);
+}
+
+}  // namespace
+
+double body_field(const Shape& shape, Vec3d p) {
+  const double from_neck = std::hypot(p.x, p.z - kCollarMiddle) - collar_radius(shape);
+  const double above = std::abs(p.y - collar_height(shape, p.z));
+  return smooth_min(shoulders(shape, p),
+                    std::hypot(std::max(above - 0.5, 0.0), from_neck - 0.42) - 0.42, 0.7);
 }
 
 Mesh make_body(const Shape& shape) {
+  constexpr std::uint32_t kAlong = 72, kAround = 12;
   const double wide = shape.p.neck * 4.2;
-  const auto field = [&shape](Vec3d p) { return std::max(body_field(shape, p), -19.0 - p.y); };
+  const auto field = [&shape](Vec3d p) { return std::max(shoulders(shape, p), -19.0 - p.y); };
   Mesh mesh = surface_nets(field, {-wide, -20, -12}, {wide, -8.5, 6}, 0.44);
+  // A rolled collar that stands a little off the neck; a net would have teeth.
+  const auto first = std::uint32_t(mesh.positions.size());
+  for (std::uint32_t i = 0; i < kAlong; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kAlong;
+    const Vec3d out{std::sin(angle), 0, std::cos(angle)};
+    Vec3d middle = out * (collar_radius(shape) + 0.42) + Vec3d{0, 0, kCollarMiddle};
+    middle.y = collar_height(shape, middle.z);
+    for (std::uint32_t k = 0; k < kAround; ++k) {
+      const double a = 2 * std::numbers::pi * k / kAround;
+      mesh.positions.push_back(
+          Vec3(middle + out * (0.45 * std::cos(a)) + Vec3d{0, 0.92 * std::sin(a), 0}));
+      const auto at = [&](std::uint32_t row, std::uint32_t column) {
+        return first + row % kAlong * kAround + column % kAround;
+      };
+      mesh.triangles.push_back({at(i, k), at(i + 1, k), at(i + 1, k + 1)});
+      mesh.triangles.push_back({at(i, k), at(i + 1, k + 1), at(i, k + 1)});
+    }
+  }
   mesh.colours.assign(mesh.positions.size(), linear_colour(shape.p.cloth_colour));
   mesh.surface = SurfaceKind::cloth;
   return mesh;

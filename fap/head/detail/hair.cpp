@@ -64,7 +64,7 @@ Vec3d onto(const Surface& hair, Vec3d from, Vec3d away, double height) {
 }
 
 // From the parting over the side to the ends, which turn in. Angle 0 is in front, pi behind.
-Lock curtain(const Surface& hair, double angle, double end, double above) {
+Lock curtain(const Surface& hair, double angle, double lowest, double end, double above) {
   constexpr int kPlaces = 15;
   Lock lock;
   lock.flatness = 0.42;
@@ -74,10 +74,14 @@ Lock curtain(const Surface& hair, double angle, double end, double above) {
     const double t = double(i) / (kPlaces - 1);
     const double over = std::min(t / 0.42, 1.0);
     const double down = std::max((t - 0.42) / 0.58, 0.0);
-    const Vec3d from = kInside + Vec3d{0, (end - kInside.y) * down, 0};
+    // Below the lowest ends of the bob, tips hang down.
+    const double y = kInside.y + (end - kInside.y) * down;
+    const double hanging = std::max(lowest - y, 0.0);
+    const Vec3d from{kInside.x, y + hanging, kInside.z};
     const Vec3d away = mix(parting, aside * 8.5, smooth_step(-0.1, 1.0, over));
-    const double height = above - 0.5 * smooth_step(0.12, 0.0, t) - 0.9 * smooth_step(0.88, 1.0, t);
-    lock.places.push_back(onto(hair, from, away, height));
+    const double height = above - 0.5 * smooth_step(0.12, 0.0, t) - 0.3 * smooth_step(0.9, 1.0, t);
+    lock.places.push_back(onto(hair, from, away, height) -
+                          (aside * 0.3 + Vec3d{0, 1, 0}) * hanging);
     lock.outwards.push_back(normalised(away));
   }
   return lock;
@@ -114,8 +118,8 @@ void add_bob_locks(const Surface& hair, const HairLines& lines, double ends, Vec
     const double place = (i + 0.7 * scattered(i + 900) - 0.35) / (kCurtains - 1);
     const double angle = 0.9 + (2 * pi - 1.8) * std::clamp(place, 0.0, 1.0);
     const bool front = i < 3 || i > kCurtains - 4;
-    const double end = ends + 0.7 * scattered(i) - 0.35 + (front ? 0.5 : 0);
-    Lock lock = curtain(hair, angle, end, 0.04 + 0.2 * scattered(i + 300));
+    const double end = ends - 0.5 + 0.7 * scattered(i) - 0.35 + (front ? 0.5 : 0);
+    Lock lock = curtain(hair, angle, ends + 0.6, end, 0.04 + 0.2 * scattered(i + 300));
     lock.width = front ? 0.5 : 0.48 + 0.3 * scattered(i + 500);
     lock.tint = 0.84f + 0.3f * float(scattered(i + 700));
     add_lock(lock, colour, mesh);
@@ -176,7 +180,7 @@ Mesh make_hair(const Shape& shape) {
   bob.occlusion.assign(bob.positions.size(), 1.0f);
   // What lies below comes last: renderers need not paint it then.
   Mesh mesh;
-  add_bob_locks(field, lines, ends_of(shape) + 0.3, colour, mesh);
+  add_bob_locks(field, lines, ends_of(shape), colour, mesh);
   append(mesh, bob);
   mesh.surface = SurfaceKind::hair;
   return mesh;

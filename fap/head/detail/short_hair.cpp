@@ -133,7 +133,8 @@ void add_mop(const Scalp& scalp, const Cap& cap, Vec3 colour, Mesh& mesh) {
       const double end = scalp.edge(start, [&](Vec3d p) {
         const double angle = std::atan2(std::abs(p.x), p.z);
         const double hang =
-            1.7 * smooth_step(1.1, 0.5, angle) +
+            0.75 * smooth_step(1.1, 0.5, angle) +  // raised brows stay below
+
             (0.45 + 0.55 * scattered(seed + 7)) * smooth_step(0.12, 0.34, std::abs(angle - 1.62));
         return edge_height(cap, angle) - hang;
       });
