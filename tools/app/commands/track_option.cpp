@@ -2,7 +2,7 @@
 
 #include "fap/detail/text_scanner.h"
 #include "tools/app/commands/options.h"
-#include "tools/formats/common/language_codes.h"
+#include "tools/formats/media/language_codes.h"
 #include "tools/speech/text/unicode.h"
 
 namespace animeme::tools {
@@ -13,7 +13,7 @@ Result<media::TrackLabels> read_track_labels(const std::string& text) {
   if (!labels) return labels;
   if (!labels->language.empty()) {
     const bool is_code = labels->language.size() == 3;
-    labels->code = is_code ? terminological_code(fap::detail::lower_case(labels->language))
+    labels->code = is_code ? media::terminological_code(fap::detail::lower_case(labels->language))
                            : text::language_code(labels->language);
     if (labels->code == "und") labels->code.clear();
   }

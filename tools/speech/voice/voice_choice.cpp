@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "dam/script/script_text_internal.h"
-#include "tools/formats/common/language_codes.h"
+#include "tools/formats/media/language_codes.h"
 #include "tools/speech/text/passages.h"
 #include "tools/speech/text/unicode.h"
 
@@ -54,7 +54,7 @@ const VoiceInfo* find_voice(std::string wanted, const std::vector<VoiceInfo>& vo
     wanted.resize(dash);
   }
   if (wanted.size() != 3) return nullptr;
-  const std::string main = language_of_code(tools::terminological_code(wanted), voices);
+  const std::string main = language_of_code(media::terminological_code(wanted), voices);
   return main.empty() || main == wanted ? nullptr : find_voice(main, voices);
 }
 

@@ -4,10 +4,10 @@
 #include <cstring>
 #include <utility>
 
-#include "tools/formats/common/language_codes.h"
 #include "tools/formats/media/detail/sound/audio_parameters.h"
 #include "tools/formats/media/detail/tracks/track_names.h"
 #include "tools/formats/media/detail/tracks/unit_facts.h"
+#include "tools/formats/media/language_codes.h"
 
 namespace animeme::media {
 namespace {
@@ -64,8 +64,7 @@ bool Muxer::is(const char* format) const {
 void Muxer::label(AVStream& stream, const TrackLabels& labels, const char* kind) {
   if (labels.empty()) return;
   const std::string code = labels.code.empty() ? "und" : labels.code;
-  const std::string language =
-      is("matroska") || is("webm") ? tools::bibliographic_code(code) : code;
+  const std::string language = is("matroska") || is("webm") ? bibliographic_code(code) : code;
   av_dict_set(&stream.metadata, "language", language.c_str(), 0);
   const std::string name = name_with_speaker(kind, labels.speaker);
   const bool mp4 = is("mp4");

@@ -6,10 +6,10 @@
 #include <cstdio>
 #include <string_view>
 
-#include "tools/formats/common/language_codes.h"
 #include "tools/formats/media/detail/mp4/box_writer.h"
 #include "tools/formats/media/detail/mp4/boxes.h"
 #include "tools/formats/media/detail/tracks/track_names.h"
+#include "tools/formats/media/language_codes.h"
 
 namespace animeme::media {
 namespace {
@@ -134,7 +134,7 @@ TextSamples subrip_samples(const TextTrack& track) {
   TextSamples out{AV_CODEC_ID_SUBRIP,
                   {1, kMatroskaTicks},
                   clean_text(track.name),
-                  tools::bibliographic_code(track.language),
+                  bibliographic_code(track.language),
                   {},
                   {}};
   for (const TextCue& cue : track.cues) {
@@ -198,7 +198,7 @@ std::string name_of_text(const AVStream& stream) {
 
 std::string language_of_text(const AVStream& stream) {
   const std::string language = tag_of(stream, "language");
-  return language.empty() ? "und" : tools::terminological_code(language);
+  return language.empty() ? "und" : terminological_code(language);
 }
 
 bool is_plain_text(AVCodecID codec) {

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "tools/formats/common/language_codes.h"
 #include "tools/formats/media/detail/ffmpeg/output_stream.h"
+#include "tools/formats/media/language_codes.h"
 #include "tools/formats/media/text_track.h"
 
 namespace animeme::media {
@@ -233,7 +233,7 @@ TrackLabels labels_of(const AVStream& stream, const std::string& tag) {
   labels.language = tag.starts_with(kNoLanguage) ? tag.substr(kNoLanguage.size()) : tag;
   if (!language.empty() && language != "und") {
     if (language.size() == 3) {
-      labels.code = tools::terminological_code(language);
+      labels.code = terminological_code(language);
     } else if (labels.language.empty() && is_language_tag(language)) {
       labels.language = language;
     }

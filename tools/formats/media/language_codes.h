@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace animeme::tools {
+namespace animeme::media {
 
 /// The terminological code and the bibliographic one, which Matroska has and users of FFmpeg know.
 inline constexpr std::array<std::string_view, 20> kBothLanguageCodes = {
@@ -30,4 +30,4 @@ inline std::string terminological_code(std::string_view code) {
   return std::string(code);
 }
 
-}  // namespace animeme::tools
+}  // namespace animeme::media
