@@ -263,8 +263,9 @@ TEST(RoundTrip, PointsAndUnitsAreNearThoseOfTheHeads) {
         100 * (is.mw / was.mw - 1));
     EXPECT_NEAR(is.irisd, was.irisd, 0.01 * was.irisd);
     EXPECT_NEAR(is.es, was.es, 0.01 * was.es);
-    EXPECT_NEAR(is.ens, was.ens, 0.05 * was.ens);
-    EXPECT_NEAR(is.mns, was.mns, 0.1 * was.mns);
+    // The base of the nose is one of the vertices, which are 1.5 mm apart there.
+    EXPECT_NEAR(is.ens, was.ens, 0.06 * was.ens);
+    EXPECT_NEAR(is.mns, was.mns, 0.11 * was.mns);
     EXPECT_NEAR(is.mw, was.mw, 0.2 * was.mw);
   }
 }
