@@ -56,8 +56,9 @@ Grain grain_at(const HeadParameters& h, Vec3d p) {
   const float cheek = near(2.6, 0.3 - h.nose_length, 1.6, 1.6);
   const float lids = near(h.eye_distance, 0, 1.9, 1.1);
   const float face = smooth_step(-1.5f, 0.5f, float(p.y + h.chin_drop));
-  return {face * std::clamp(0.5f + 0.5f * nose + 0.4f * cheek + 0.2f * chin - 0.3f * lids, 0.0f, 1.0f),
-          std::clamp(0.75f + 0.55f * nose + 0.4f * forehead + 0.35f * chin, 0.0f, 2.0f)};
+  return {
+      face * std::clamp(0.5f + 0.5f * nose + 0.4f * cheek + 0.2f * chin - 0.3f * lids, 0.0f, 1.0f),
+      std::clamp(0.75f + 0.55f * nose + 0.4f * forehead + 0.35f * chin, 0.0f, 2.0f)};
 }
 
 Vec3 face_colour(const Shape& shape, Vec3d p) {

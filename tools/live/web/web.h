@@ -73,7 +73,7 @@ struct WebOptions {
   /// In place of head_model, where making it takes long: called once, in a thread, when the server
   /// serves; who asks for the head until then waits for it. Empty bytes: there is none.
   std::function<std::vector<std::uint8_t>()> make_head_model;
-  std::string head_name;                 ///< of that head, for a list of several; any text
+  std::string head_name;  ///< of that head, for a list of several; any text
   /// Further heads, /heads/1.bin and so on, selected in a list or by ?head=NAME.
   std::vector<WebHead> other_heads;
   /// Creates the WebRTC implementation for `/whep`; empty: no WebRTC. If its start() fails, the
