@@ -33,7 +33,7 @@ TEST(TrackerRecipes, MediapipeSeesWhatIsDrawn) {
     GTEST_SKIP() << "npm @mediapipe/face_mesh is not installed: tools/setup.sh full";
   }
   const TempDir dir;
-  const auto film = animeme({"render", kClip.string(), "--head", "woman", "--size", "256x256",
+  const auto film = animeme({"render", kClip.string(), "--head", "woman", "--size", "384x384",
                              "--zoom", "1.4", "-o", dir / "talk.mp4"});
   if (film.err.find("built without") != std::string::npos) GTEST_SKIP() << film.err;
   ASSERT_EQ(film.exit_code, 0) << film.err;
@@ -46,7 +46,7 @@ TEST(TrackerRecipes, MediapipeSeesWhatIsDrawn) {
   ASSERT_TRUE(drawn && seen);
   EXPECT_EQ(seen->rate.frames_per_second(), drawn->rate.frames_per_second());
   ASSERT_EQ(seen->frames(), drawn->frames()) << import.err;
-  // 0.93 and 0.97 when this was written.
+  // 0.88 and 0.97; where a face has 150 pixels, small changes of its skin count as much.
   EXPECT_GT(test::agreement(test::curve_of(*drawn, 3), test::curve_of(*seen, 3)).correlation, 0.85);
   EXPECT_GT(test::agreement(test::lip_gap(*drawn), test::lip_gap(*seen)).correlation, 0.9);
 }
