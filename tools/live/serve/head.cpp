@@ -113,8 +113,8 @@ void Head::finish(bool comes_back) {
   speaker_.reset();
 }
 
-bool Head::wanted() const {
-  return sink_->stats().receivers > 0 || !lines_->idle() || !speaker_->silent();
+bool Head::wanted(const media::SendStats& sent) const {
+  return sent.receivers > 0 || !lines_->idle() || !speaker_->silent();
 }
 
 Result<void> Head::tell_events() {
@@ -144,10 +144,10 @@ void Head::note_latencies() {
   noted_ = last;
 }
 
-Result<void> Head::send_due() {
+Result<void> Head::send_due(const media::SendStats& sent) {
   const std::optional<double> due = speaker_->next_due();
   if (!due || pacer_.now() < *due) return {};
-  expected_.follow(sink_->stats(), clock_.now(), *speaker_);
+  expected_.follow(sent, clock_.now(), *speaker_);
   Result<std::vector<media::LiveUnit>> units = speaker_->take(pacer_.now());
   if (!units) return units.error();
   for (const media::LiveUnit& unit : *units) {
@@ -165,12 +165,13 @@ double Head::step() {
   const std::lock_guard lock(mutex_);
   if (!speaker_) return kNever;
   const double now = clock_.now();
-  if (wanted()) {
+  const media::SendStats sent = sink_->stats();
+  if (wanted(sent)) {
     wanted_ = now;
     if (std::exchange(asleep_, false)) pacer_.restart(-resume_);
   }
   if (asleep_) return kNever;
-  if (auto ok = send_due(); !ok) {
+  if (auto ok = send_due(sent); !ok) {
     failure_ = ok.error().describe();
     asleep_ = true;  // for good, until it is forgotten
     (void)sink_->finish();

@@ -96,8 +96,8 @@ class Head : public Beat {
         journal_(room.journal),
         settings_(settings),
         pacer_(room.clock) {}
-  bool wanted() const;
-  Result<void> send_due();
+  bool wanted(const media::SendStats& sent) const;
+  Result<void> send_due(const media::SendStats& sent);
   Result<void> tell_events();
   void note_latencies();
 
